@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "reachcast/body/body.hpp"
 #include "reachcast/body/joints.hpp"
 #include "reachcast/body/subject.hpp"
 #include "reachcast/conventions.hpp"
@@ -23,7 +24,6 @@ enum class Phase {
 [[nodiscard]] std::string_view phase_name(Phase phase);
 [[nodiscard]] std::optional<Phase> find_phase(std::string_view name);
 
-using Posture = std::array<Vec3, kJointCount>;  ///< indexed by index(Joint); metres
 
 struct Reach {
   Subject subject;

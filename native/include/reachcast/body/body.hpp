@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The body that moves: who it is in segment lengths, and where its feet stand.
+///
+/// A Body is one reference posture, an upright stand in the body frame with the feet flat on the floor. Everything
+/// else (segment lengths, the shape of pelvis and chest, the stance) is read off that posture, so a body measured on a
+/// rig and a body from published proportions are the same kind of thing.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "reachcast/body/joints.hpp"
+#include "reachcast/body/subject.hpp"
+#include "reachcast/conventions.hpp"
+
+namespace reachcast {
+
+using Posture = std::array<Vec3, kJointCount>;  ///< indexed by index(Joint); metres
+
+class Body {
+ public:
+  /// Published proportions (Drillis & Contini 1966 as given by Winter 2009, with trunk landmarks of ANSUR), see
+  /// body.cpp. `stature_m` in [1.2, 2.2]; without a sex the mean of the two. Throws std::invalid_argument.
+  [[nodiscard]] static Body from_stature(double stature_m, std::optional<Sex> sex = std::nullopt);
+
+  /// A standing posture as measured, body frame. Every segment must be longer than 1 cm and every value finite, or
+  /// std::invalid_argument names the joint. Left and right may differ.
+  [[nodiscard]] static Body from_posture(const Posture& posture, double stature_m);
+
+  /// The proportions of `stature_m` with some segments replaced: names of segment_names(), metres, both sides alike.
+  [[nodiscard]] static Body from_lengths(double stature_m, const std::map<std::string, double>& lengths_m);
+
+  [[nodiscard]] const Posture& posture() const { return posture_; }
+  [[nodiscard]] const Vec3& at(Joint joint) const { return posture_[index(joint)]; }
+  [[nodiscard]] double stature_m() const { return stature_m_; }
+
+  /// Distance of two joints in the reference posture: a segment length where both belong to one segment.
+  [[nodiscard]] double distance(Joint a, Joint b) const { return glm::distance(at(a), at(b)); }
+
+  /// Lengths by segment name; left and right averaged.
+  [[nodiscard]] std::map<std::string, double> lengths() const;
+
+ private:
+  Body(const Posture& posture, double stature_m) : posture_(posture), stature_m_(stature_m) {}
+  Posture posture_{};
+  double stature_m_ = 0.0;
+};
+
+/// Names that from_lengths takes: foot, shank, thigh, pelvis_width, pelvis, trunk, clavicle, upper_arm, forearm, hand,
+/// neck, head.
+[[nodiscard]] const std::array<std::string_view, 12>& segment_names();
+
+}  // namespace reachcast
