@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "reachcast/mocap/joint_map.hpp"
+#include "reachcast/mocap/motion_file.hpp"
+#include "reachcast/motion/cut_reach.hpp"
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace {
+
+using reachcast::Clip;
+using reachcast::CutOptions;
+using reachcast::Joint;
+using reachcast::JointMap;
+using reachcast::kJointCount;
+using reachcast::MotionFile;
+using reachcast::MotionFileOptions;
+using reachcast::Reach;
+using reachcast::Subject;
+using reachcast::Vec3;
+
+static_assert(sizeof(Vec3) == 3 * sizeof(double), "points are copied to arrays as they lie in memory");
+
+/// Names come from files and may hold any bytes.
+py::str text(const std::string& bytes) {
+  PyObject* decoded = PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()), "replace");
+  if (!decoded) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(decoded);
+}
+
+py::array_t<double> points_array(const Vec3* points, std::size_t frames, std::size_t joints) {
+  py::array_t<double> array({frames, joints, std::size_t{3}});
+  if (frames * joints > 0) std::copy_n(&points[0].x, frames * joints * 3, array.mutable_data());
+  return array;
+}
+
+py::list clip_names(const Clip& clip) {
+  py::list names;
+  for (const std::string& name : clip.names) names.append(text(name));
+  return names;
+}
+
+py::dict clip_channels(const Clip& clip) {
+  py::dict channels;
+  for (const auto& [name, values] : clip.channels) {
+    channels[text(name)] = py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+  }
+  return channels;
+}
+
+Clip make_clip(const std::vector<std::string>& names,
+               const py::array_t<double, py::array::c_style | py::array::forcecast>& positions, double rate_hz,
+               const std::string& source) {
+  if (positions.ndim() != 3 || positions.shape(2) != 3 ||
+      positions.shape(1) != static_cast<py::ssize_t>(names.size())) {
+    throw std::invalid_argument("positions must have the shape (frames, " + std::to_string(names.size()) +
+                                ", 3), one joint per name");
+  }
+  if (!(rate_hz > 0.0)) throw std::invalid_argument("rate must be over 0 Hz, not " + std::to_string(rate_hz));
+  Clip clip{source, rate_hz, names, std::vector<bool>(names.size(), false), {}, {}};
+  const double* value = positions.data();
+  for (py::ssize_t i = 0; i < positions.shape(0) * positions.shape(1); ++i, value += 3) {
+    clip.positions.emplace_back(value[0], value[1], value[2]);
+  }
+  return clip;
+}
+
+MotionFile read_motion(const std::string& path, std::optional<double> metres_per_unit,
+                       const std::optional<std::string>& up, std::optional<double> rate, std::optional<long> interval) {
+  MotionFileOptions options{metres_per_unit, {}, rate, interval};
+  if (up && up->size() != 1) throw std::invalid_argument("up must be 'x', 'y' or 'z', not '" + *up + "'");
+  if (up) options.up = up->front();
+  const py::gil_scoped_release release;
+  return reachcast::read_motion(path, options);
+}
+
+/// A preset's name, or pairs of a canonical joint and the name, or the names to be averaged, of its recorded points.
+JointMap joint_map(const py::object& map) {
+  if (py::isinstance<py::str>(map)) {
+    const auto name = map.cast<std::string>();
+    std::string known;
+    for (const JointMap& preset : reachcast::joint_map_presets()) {
+      if (preset.name == name) return preset;
+      known += (known.empty() ? "" : ", ") + preset.name;
+    }
+    throw std::invalid_argument("map must be one of " + known + ", or pairs, not '" + name + "'");
+  }
+  JointMap result{"given", {}};
+  const py::object pairs = py::isinstance<py::dict>(map) ? map.attr("items")() : map;
+  for (const py::handle pair : pairs) {
+    const auto [joint_name, points] = pair.cast<std::pair<std::string, py::object>>();
+    const std::optional<Joint> joint = reachcast::find_joint(joint_name);
+    if (!joint) throw std::invalid_argument("map: '" + joint_name + "' is not a canonical joint");
+    const bool is_single = py::isinstance<py::str>(points);
+    result.sources.emplace_back(*joint, is_single ? std::vector<std::string>{points.cast<std::string>()}
+                                                  : points.cast<std::vector<std::string>>());
+  }
+  return result;
+}
+
+Clip canonical(const Clip& clip, const py::object& map) {
+  return map.is_none() ? reachcast::to_canonical(clip) : reachcast::to_canonical(clip, joint_map(map));
+}
+
+Reach cut_reach(const Clip& clip, std::size_t first, std::size_t last, const Subject& subject, const std::string& phase,
+                const std::string& origin, std::optional<double> floor_z, double longest_gap_s) {
+  const std::optional<reachcast::Phase> known = reachcast::find_phase(phase);
+  if (!known) throw std::invalid_argument("phase must be transfer, return, reach or retrieve, not '" + phase + "'");
+  return reachcast::cut_reach(clip, first, last, subject, *known, origin, CutOptions{floor_z, longest_gap_s});
+}
+
+std::pair<std::size_t, std::size_t> trim(const Clip& clip, std::size_t first, std::size_t last, double fraction) {
+  const reachcast::FrameRange range = reachcast::trim_by_hand_speed(clip, first, last, fraction);
+  return {range.first, range.last};
+}
+
+py::array_t<double> reach_positions(const Reach& reach) {
+  py::array_t<double> array({reach.frames(), kJointCount, std::size_t{3}});
+  double* to = array.mutable_data();
+  for (const reachcast::Posture& posture : reach.postures) to = std::copy_n(&posture[0].x, kJointCount * 3, to);
+  return array;
+}
+
+py::array_t<double> hold_points(const Reach& reach) {
+  py::array_t<double> array({reach.frames(), std::size_t{3}});
+  double* to = array.mutable_data();
+  for (std::size_t frame = 0; frame < reach.frames(); ++frame) {
+    const Vec3 point = reach.hold_point(frame);
+    to = std::copy_n(&point.x, 3, to);
+  }
+  return array;
+}
+
+void bind_clip(py::module_& m) {
+  py::class_<Clip>(m, "Clip", "Named points over time: metres, z up, the world of the recording; NaN is missing.")
+      .def(py::init(&make_clip), "names"_a, "positions"_a, "rate"_a, "source"_a = "", "positions: (frames, joints, 3).")
+      .def_property_readonly("names", &clip_names)
+      .def_property_readonly(
+          "positions",
+          [](const Clip& clip) { return points_array(clip.positions.data(), clip.frames(), clip.joints()); },
+          "A new array (frames, joints, 3).")
+      .def_readonly("rate", &Clip::rate_hz, "Frames per second.")
+      .def_readonly("derived", &Clip::derived, "One flag per joint: computed from others, not recorded.")
+      .def_property_readonly("channels", &clip_channels, "Other numeric columns: name to a new array (frames,).")
+      .def_readonly("source", &Clip::source)
+      .def("__len__", &Clip::frames)
+      .def("__repr__", [](const Clip& clip) {
+        return "<Clip " + clip.source + ": " + std::to_string(clip.frames()) + " frames, " +
+               std::to_string(clip.joints()) + " joints, " + py::str(py::float_(clip.rate_hz)).cast<std::string>() +
+               " Hz>";
+      });
+  py::class_<MotionFile, Clip>(m, "MotionFile", "A Clip together with how its file was understood.")
+      .def_readonly("metres_per_unit", &MotionFile::metres_per_unit)
+      .def_property_readonly("up", [](const MotionFile& file) { return std::string(1, file.up); })
+      .def_property_readonly(
+          "note", [](const MotionFile& file) { return text(file.note); },
+          "What was guessed or noticed, in sentences; empty when nothing was.");
+}
+
+void bind_reach(py::module_& m) {
+  py::class_<Reach>(m, "Reach", "One labelled phase in the body frame, in the canonical joints.")
+      .def_property_readonly("positions", &reach_positions, "A new array (frames, 27, 3), joints as in joint_names.")
+      .def_property_readonly("hold_points", &hold_points, "A new array (frames, 3): midpoints of the two grips.")
+      .def_readonly("subject", &Reach::subject)
+      .def_property_readonly("phase",
+                             [](const Reach& reach) { return std::string(reachcast::phase_name(reach.phase)); })
+      .def_readonly("origin", &Reach::origin)
+      .def_readonly("duration", &Reach::duration_s, "Seconds from the first to the last frame.")
+      .def_readonly("derived", &Reach::derived, "27 flags: joints that the recording lacked.")
+      .def(
+          "mirrored", [](const Reach& reach) { return reachcast::mirrored(reach); },
+          "The same motion by the mirror image of the person.")
+      .def("__len__", &Reach::frames)
+      .def("__repr__", [](const Reach& reach) {
+        return "<Reach " + std::string(reachcast::phase_name(reach.phase)) + " of " + reach.origin + ": " +
+               std::to_string(reach.frames()) + " frames>";
+      });
+}
+
+}  // namespace
+
+void bind_mocap(py::module_& m) {
+  bind_clip(m);
+  bind_reach(m);
+  m.def("read_motion", &read_motion, "path"_a, py::kw_only(), "metres_per_unit"_a = py::none(), "up"_a = py::none(),
+        "rate"_a = py::none(), "interval"_a = py::none(),
+        "Reads a .bvh or .csv file as a MotionFile (a Clip) in metres, z up. What is not given is taken from the file "
+        "or\n"
+        "guessed, and then mentioned in .note. up: 'x', 'y' or 'z'; interval: a group of rows of an interval_label "
+        "table.");
+  m.def(
+      "canonical", &canonical, "clip"_a, "map"_a = py::none(),
+      "The clip in the 27 canonical joints, missing ones derived. map: the name of a preset, or a dict or pairs of a\n"
+      "canonical joint and a recorded name (or several, to be averaged); None detects the preset.");
+  m.def("cut_reach", &cut_reach, "clip"_a, "first"_a, "last"_a, "subject"_a, "phase"_a, "origin"_a = "", py::kw_only(),
+        "floor_z"_a = py::none(), "longest_gap_s"_a = CutOptions{}.longest_gap_s,
+        "Frames first to last of a canonical clip as a Reach in the body frame of frame first.");
+  m.def("trim_by_hand_speed", &trim, "clip"_a, "first"_a, "last"_a, "fraction"_a = 0.1,
+        "(first, last) of the part in which the hold point moves at least at a fraction of its peak speed.");
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "units.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace reachcast {
+namespace {
+
+constexpr double kShortest_m = 1.4;
+constexpr double kTallest_m = 2.1;
+
+// Their ranges for a standing adult do not overlap, so the choice is unique.
+constexpr std::array<Unit, 6> kUnits{{{1.0, "metres"},
+                                      {0.01, "centimetres"},
+                                      {0.001, "millimetres"},
+                                      {0.0254, "inches"},
+                                      {0.3048, "feet"},
+                                      {0.0254 / 0.45, "the CMU database's unit"}}};
+
+bool contains_any(std::string_view name, std::span<const std::string_view> parts) {
+  std::string lowered(name);
+  std::transform(lowered.begin(), lowered.end(), lowered.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](std::string_view part) { return lowered.find(part) != std::string::npos; });
+}
+
+struct Mean {
+  Vec3 sum{0.0};
+  std::size_t count = 0;
+  void add(const Vec3& point) {
+    if (!is_finite(point)) return;
+    sum += point;
+    ++count;
+  }
+  [[nodiscard]] Vec3 value() const { return sum / static_cast<double>(count); }
+};
+
+}  // namespace
+
+void check_options(const MotionFileOptions& options) {
+  const auto positive = [](const std::optional<double>& value, const char* name) {
+    if (value && !(*value > 0.0 && *value <= 1e6)) {
+      throw std::invalid_argument(std::string(name) + " must be over 0 and at most 1e6, not " + show(*value));
+    }
+  };
+  positive(options.metres_per_unit, "metres_per_unit");
+  positive(options.rate_hz, "rate_hz");
+  if (options.up && (*options.up < 'x' || *options.up > 'z')) {
+    throw std::invalid_argument(std::string("up must be 'x', 'y' or 'z', not '") + *options.up + "'");
+  }
+}
+
+std::optional<char> guess_up(std::span<const std::string> names, std::span<const Vec3> poses) {
+  constexpr std::array<std::string_view, 3> high{"head", "neck", "sho"};
+  constexpr std::array<std::string_view, 4> low{"foot", "ankle", "rank", "toe"};  // RANK: right ankle in marker sets
+  Mean upper, lower;
+  for (std::size_t joint = 0; joint < names.size(); ++joint) {
+    const bool is_high = contains_any(names[joint], high);
+    const bool is_low = !is_high && contains_any(names[joint], low);
+    if (!is_high && !is_low) continue;
+    for (std::size_t i = joint; i < poses.size(); i += names.size()) (is_high ? upper : lower).add(poses[i]);
+  }
+  if (upper.count == 0 || lower.count == 0) return std::nullopt;
+  const Vec3 rise = upper.value() - lower.value();
+  int best = 0;
+  for (int axis = 1; axis < 3; ++axis) {
+    if (rise[axis] > rise[best]) best = axis;
+  }
+  if (!(rise[best] > 0.0)) return std::nullopt;
+  return static_cast<char>('x' + best);
+}
+
+std::optional<Unit> guess_unit(double height) {
+  for (const Unit& unit : kUnits) {
+    const double height_m = height * unit.metres;
+    if (height_m >= kShortest_m && height_m <= kTallest_m) return unit;
+  }
+  return std::nullopt;
+}
+
+Vec3 to_z_up(const Vec3& p, char up) {
+  if (up == 'x') return {p.y, p.z, p.x};
+  if (up == 'y') return {p.x, -p.z, p.y};
+  return p;
+}
+
+std::string show(double value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(7);
+  text << value;
+  return text.str();
+}
+
+void add_note(std::string& note, std::string_view sentence) {
+  if (!note.empty()) note += ' ';
+  note += sentence;
+}
+
+}  // namespace reachcast

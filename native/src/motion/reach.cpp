@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reachcast/motion/reach.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace reachcast {
+namespace {
+
+constexpr std::array<std::pair<Phase, std::string_view>, 4> kPhaseNames{{{Phase::transfer, "transfer"},
+                                                                         {Phase::return_, "return"},
+                                                                         {Phase::reach, "reach"},
+                                                                         {Phase::retrieve, "retrieve"}}};
+
+}  // namespace
+
+std::string_view phase_name(Phase phase) {
+  const auto found =
+      std::find_if(kPhaseNames.begin(), kPhaseNames.end(), [&](const auto& p) { return p.first == phase; });
+  return found == kPhaseNames.end() ? std::string_view{} : found->second;
+}
+
+std::optional<Phase> find_phase(std::string_view name) {
+  const auto found =
+      std::find_if(kPhaseNames.begin(), kPhaseNames.end(), [&](const auto& p) { return p.second == name; });
+  if (found == kPhaseNames.end()) return std::nullopt;
+  return found->first;
+}
+
+Vec3 Reach::hold_point(std::size_t frame) const {
+  const Posture& posture = postures.at(frame);
+  return (posture[index(Joint::left_grip)] + posture[index(Joint::right_grip)]) * 0.5;
+}
+
+Reach mirrored(const Reach& reach) {
+  Reach image = reach;
+  for (std::size_t joint = 0; joint < kJointCount; ++joint) {
+    const std::size_t other = index(mirrored(static_cast<Joint>(joint)));
+    image.derived[joint] = reach.derived[other];
+    for (std::size_t frame = 0; frame < reach.frames(); ++frame) {
+      image.postures[frame][joint] = reach.postures[frame][other] * Vec3(-1.0, 1.0, 1.0);
+    }
+  }
+  return image;
+}
+
+}  // namespace reachcast
