@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Many MotionCodes in one SQLite file: what prediction learns from. The only stage that writes files.
+///
+/// The file is in SQLite's rollback-journal mode, never WAL: a reader then needs no -wal or -shm beside the file, so a
+/// corpus also opens from a read-only folder. The -journal exists only while `add` or `set_meta` runs.
+/// Any number of processes and threads may read while one writes; a reader sees all of an `add` or none of it, and
+/// whoever waits longer than kBusyTimeout_ms gets an error. A Corpus must not be carried across fork(): open it after.
+///
+/// Failure, in every function: std::invalid_argument for the caller's mistakes (file missing, empty, not a corpus,
+/// newer schema, invalid code, unknown id), std::runtime_error for disk errors and damaged files. The message is one
+/// sentence that names the path, the value and the limit.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reachcast/motion/motion_code.hpp"
+
+namespace reachcast {
+
+inline constexpr int kCorpusSchemaVersion = 1;                    ///< PRAGMA user_version
+inline constexpr std::int32_t kCorpusApplicationId = 0x52434350;  ///< PRAGMA application_id: "RCCP"
+inline constexpr int kBusyTimeout_ms = 30'000;                    ///< how long to wait for another process
+
+/// Comes back bit for bit as it was added, except that -0.0 becomes 0.0 outside the coefficients (SQLite's REAL).
+struct StoredMotion {
+  std::int64_t id = 0;  ///< > 0, grows in the order of adding, never reused
+  MotionCode code;
+};
+
+/// A stored motion without its coefficients: all that a neighbour search looks at.
+struct MotionSummary {
+  std::int64_t id = 0;
+  std::int64_t subject_id = 0;  ///< equal for motions whose Subject has the same four values
+  Subject subject;
+  Phase phase = Phase::transfer;
+  std::string origin;
+  bool is_mirrored = false;
+  double duration_s = 0.0;
+  Vec3 home{0.0};    ///< body frame, metres
+  Vec3 target{0.0};  ///< body frame, metres
+  double grip_distance_m = 0.0;
+};
+
+/// Movable. Its functions may be called from several threads; they take turns.
+class Corpus {
+ public:
+  /// A new, empty corpus; fails if anything exists at `path`. `created_by` is kept in the metadata.
+  [[nodiscard]] static Corpus create(const std::filesystem::path& path, std::string_view created_by = "reachcast");
+  /// Read-only. An empty corpus is legal.
+  [[nodiscard]] static Corpus open(const std::filesystem::path& path);
+  /// Also repairs what a crashed writer left half done.
+  [[nodiscard]] static Corpus open_for_writing(const std::filesystem::path& path);
+
+  Corpus(Corpus&& other) noexcept;
+  Corpus& operator=(Corpus&& other) noexcept;
+  ~Corpus();
+
+  /// Appends in one transaction: all or nothing, also on errors. A code whose (origin, mirrored, phase) is already
+  /// stored changes nothing and yields the id it has. Returns one id per code, in their order.
+  /// Every code needs a non-empty origin, finite values within the ranges of MotionCode and Subject, a
+  /// duration > 0, and as many coefficients as the codes already stored.
+  std::vector<std::int64_t> add(std::span<const MotionCode> codes);
+
+  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] std::vector<StoredMotion> motions() const;     ///< all, in id order
+  [[nodiscard]] std::vector<MotionSummary> summaries() const;  ///< all, in id order, without reading coefficients
+  /// The codes of these ids, in their order; repeated ids are legal.
+  [[nodiscard]] std::vector<StoredMotion> load(std::span<const std::int64_t> ids) const;
+
+  /// Always there: "schema_version", "created_by", "kind" (such as "recorded" or "simulated"; "" until it is set),
+  /// "description"; and "code_length", the number of coefficients, once a motion was added.
+  [[nodiscard]] std::map<std::string, std::string> meta() const;
+  /// Any key except "schema_version", "created_by" and "code_length", which the corpus keeps itself.
+  void set_meta(std::string_view key, std::string_view value);
+
+  [[nodiscard]] const std::filesystem::path& path() const;
+  [[nodiscard]] bool is_open() const;
+  [[nodiscard]] bool is_writable() const;
+  /// Releases the file; every later call but path, is_open and close fails. Closing twice is legal.
+  void close();
+
+ private:
+  struct State;
+  explicit Corpus(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace reachcast

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reachcast/corpus/corpus.hpp"
+
+#include <mutex>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "opening.hpp"
+#include "rows.hpp"
+#include "sqlite.hpp"
+
+namespace reachcast {
+
+namespace fs = std::filesystem;
+using opening::quoted;
+using opening::reporting;
+using sqlite::Connection;
+using sqlite::Statement;
+using sqlite::Transaction;
+
+struct Corpus::State {
+  fs::path path;
+  std::unique_ptr<Connection> connection;  ///< empty once closed
+  std::mutex mutex;                        ///< held by whoever uses the connection
+};
+
+namespace {
+
+/// A row that makes no sense means that the file is damaged.
+template <typename Read>
+auto read_row(const fs::path& path, const Read& read) {
+  try {
+    return read();
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(quoted(path) + "is damaged: " + error.what());
+  }
+}
+
+void put_meta(Connection& connection, std::string_view key, std::string_view value) {
+  Statement statement(connection, "INSERT OR REPLACE INTO meta (key, value) VALUES (?, ?)");
+  statement.bind(1, key);
+  statement.bind(2, value);
+  statement.run();
+}
+
+void write_empty_corpus(Connection& connection, std::string_view created_by) {
+  Transaction transaction(connection, Transaction::Kind::write);
+  connection.execute("PRAGMA application_id = " + std::to_string(kCorpusApplicationId) +
+                     "; PRAGMA user_version = " + std::to_string(kCorpusSchemaVersion));
+  connection.execute(rows::schema());
+  put_meta(connection, "schema_version", std::to_string(kCorpusSchemaVersion));
+  put_meta(connection, "created_by", created_by);
+  put_meta(connection, "kind", "");
+  put_meta(connection, "description", "");
+  transaction.commit();
+}
+
+std::int64_t code_length(Connection& connection) {
+  return connection.integer("SELECT CAST(value AS INTEGER) FROM meta WHERE key = 'code_length'");
+}
+
+void require_code(const MotionCode& code, std::size_t position) {
+  const std::string complaint = rows::complaint(code);
+  if (complaint.empty()) return;
+  throw std::invalid_argument("codes[" + std::to_string(position) + "]." + complaint);
+}
+
+void require_length(const MotionCode& code, std::size_t position, std::int64_t length, const fs::path& path) {
+  if (code.coefficients.size() == length) return;
+  throw std::invalid_argument("codes[" + std::to_string(position) + "].coefficients has " +
+                              std::to_string(code.coefficients.size()) + " values, " + quoted(path) +
+                              "holds codes of " + std::to_string(length));
+}
+
+Connection& require_open(const std::unique_ptr<Connection>& connection, const fs::path& path) {
+  if (!connection) throw std::invalid_argument(quoted(path) + "is closed");
+  return *connection;
+}
+
+Connection& require_writable(const std::unique_ptr<Connection>& connection, const fs::path& path) {
+  if (require_open(connection, path).is_read_only()) {
+    throw std::invalid_argument(quoted(path) + "was opened for reading only, use open_for_writing");
+  }
+  return *connection;
+}
+
+}  // namespace
+
+Corpus::Corpus(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Corpus::Corpus(Corpus&& other) noexcept = default;
+Corpus& Corpus::operator=(Corpus&& other) noexcept = default;
+Corpus::~Corpus() = default;
+
+Corpus Corpus::create(const fs::path& path, std::string_view created_by) {
+  opening::claim_file(path);
+  auto state = std::make_unique<State>();
+  state->path = path;
+  try {
+    reporting(path, [&] {
+      state->connection = opening::connect(path, true);
+      write_empty_corpus(*state->connection, created_by);
+    });
+  } catch (...) {
+    state->connection.reset();
+    std::error_code ignored;
+    fs::remove(path, ignored);
+    throw;
+  }
+  return Corpus(std::move(state));
+}
+
+Corpus Corpus::open(const fs::path& path) {
+  auto state = std::make_unique<State>();
+  state->path = path;
+  state->connection = opening::open_checked(path, false);
+  return Corpus(std::move(state));
+}
+
+Corpus Corpus::open_for_writing(const fs::path& path) {
+  auto state = std::make_unique<State>();
+  state->path = path;
+  state->connection = opening::open_checked(path, true);
+  return Corpus(std::move(state));
+}
+
+std::vector<std::int64_t> Corpus::add(std::span<const MotionCode> codes) {
+  const std::scoped_lock lock(state_->mutex);
+  Connection& connection = require_writable(state_->connection, state_->path);
+  for (std::size_t i = 0; i < codes.size(); ++i) require_code(codes[i], i);
+  if (codes.empty()) return {};
+  return reporting(state_->path, [&] {
+    Transaction transaction(connection, Transaction::Kind::write);
+    std::int64_t length = code_length(connection);
+    if (length == 0) {
+      length = codes.front().coefficients.size();
+      put_meta(connection, "code_length", std::to_string(length));
+    }
+    rows::Writer writer(connection);
+    std::vector<std::int64_t> ids;
+    ids.reserve(codes.size());
+    for (const MotionCode& code : codes) {
+      require_length(code, ids.size(), length, state_->path);
+      ids.push_back(writer.add(code));
+    }
+    transaction.commit();
+    return ids;
+  });
+}
+
+std::size_t Corpus::size() const {
+  const std::scoped_lock lock(state_->mutex);
+  Connection& connection = require_open(state_->connection, state_->path);
+  return reporting(state_->path,
+                   [&] { return static_cast<std::size_t>(connection.integer("SELECT count(*) FROM motions")); });
+}
+
+std::vector<StoredMotion> Corpus::motions() const {
+  const std::scoped_lock lock(state_->mutex);
+  Connection& connection = require_open(state_->connection, state_->path);
+  return reporting(state_->path, [&] {
+    const Transaction snapshot(connection, Transaction::Kind::read);
+    const std::int64_t length = code_length(connection);
+    Statement row(connection, rows::select(true));
+    std::vector<StoredMotion> motions;
+    while (row.step()) motions.push_back(read_row(state_->path, [&] { return rows::read_motion(row, length); }));
+    return motions;
+  });
+}
+
+std::vector<MotionSummary> Corpus::summaries() const {
+  const std::scoped_lock lock(state_->mutex);
+  Connection& connection = require_open(state_->connection, state_->path);
+  return reporting(state_->path, [&] {
+    Statement row(connection, rows::select(false));
+    std::vector<MotionSummary> motions;
+    while (row.step()) motions.push_back(read_row(state_->path, [&] { return rows::read_summary(row); }));
+    return motions;
+  });
+}
+
+std::vector<StoredMotion> Corpus::load(std::span<const std::int64_t> ids) const {
+  const std::scoped_lock lock(state_->mutex);
+  Connection& connection = require_open(state_->connection, state_->path);
+  return reporting(state_->path, [&] {
+    const Transaction snapshot(connection, Transaction::Kind::read);
+    const std::int64_t length = code_length(connection);
+    Statement row(connection, rows::select(true, "WHERE m.id = ?"));
+    std::vector<StoredMotion> motions;
+    motions.reserve(ids.size());
+    for (const std::int64_t id : ids) {
+      row.bind(1, id);
+      if (!row.step())
+        throw std::invalid_argument(quoted(state_->path) + "has no motion with id " + std::to_string(id));
+      motions.push_back(read_row(state_->path, [&] { return rows::read_motion(row, length); }));
+      row.reset();
+    }
+    return motions;
+  });
+}
+
+std::map<std::string, std::string> Corpus::meta() const {
+  const std::scoped_lock lock(state_->mutex);
+  Connection& connection = require_open(state_->connection, state_->path);
+  return reporting(state_->path, [&] {
+    std::map<std::string, std::string> meta;
+    Statement row(connection, "SELECT key, value FROM meta");
+    while (row.step()) meta.emplace(row.text(0), row.text(1));
+    return meta;
+  });
+}
+
+void Corpus::set_meta(std::string_view key, std::string_view value) {
+  const std::scoped_lock lock(state_->mutex);
+  Connection& connection = require_writable(state_->connection, state_->path);
+  if (key.empty() || key == "schema_version" || key == "created_by" || key == "code_length") {
+    throw std::invalid_argument("meta key '" + std::string(key) + "' cannot be set: the corpus keeps it itself");
+  }
+  reporting(state_->path, [&] { put_meta(connection, key, value); });
+}
+
+const fs::path& Corpus::path() const {
+  return state_->path;
+}
+
+bool Corpus::is_open() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->connection != nullptr;
+}
+
+bool Corpus::is_writable() const {
+  const std::scoped_lock lock(state_->mutex);
+  return !require_open(state_->connection, state_->path).is_read_only();
+}
+
+void Corpus::close() {
+  const std::scoped_lock lock(state_->mutex);
+  state_->connection.reset();
+}
+
+}  // namespace reachcast

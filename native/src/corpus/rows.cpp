@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rows.hpp"
+
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace reachcast::rows {
+
+const char* schema() {
+  // Coefficients have a table of their own: a pass over `motions` then reads little, however long the codes are.
+  return R"sql(
+CREATE TABLE meta (
+  key TEXT PRIMARY KEY NOT NULL,
+  value TEXT NOT NULL
+) STRICT;
+CREATE TABLE subjects (
+  id INTEGER PRIMARY KEY,
+  stature_m REAL NOT NULL,
+  sex TEXT CHECK (sex IN ('female', 'male')),
+  age_years REAL,
+  mass_kg REAL
+) STRICT;
+CREATE INDEX subjects_by_value ON subjects (stature_m, sex, age_years, mass_kg);
+CREATE TABLE sources (
+  id INTEGER PRIMARY KEY,
+  origin TEXT NOT NULL UNIQUE
+) STRICT;
+CREATE TABLE motions (
+  id INTEGER PRIMARY KEY,
+  subject INTEGER NOT NULL REFERENCES subjects (id),
+  source INTEGER NOT NULL REFERENCES sources (id),
+  phase TEXT NOT NULL,
+  mirrored INTEGER NOT NULL CHECK (mirrored IN (0, 1)),
+  duration_s REAL NOT NULL,
+  home_x REAL NOT NULL, home_y REAL NOT NULL, home_z REAL NOT NULL,
+  target_x REAL NOT NULL, target_y REAL NOT NULL, target_z REAL NOT NULL,
+  grip_distance_m REAL NOT NULL,
+  UNIQUE (source, mirrored, phase)
+) STRICT;
+CREATE TABLE coefficients (
+  motion INTEGER PRIMARY KEY REFERENCES motions (id),
+  data BLOB NOT NULL
+) STRICT;
+)sql";
+}
+
+namespace {
+
+enum Column {
+  kId,
+  kSubject,
+  kStature,
+  kSex,
+  kAge,
+  kMass,
+  kPhase,
+  kOrigin,
+  kMirrored,
+  kDuration,
+  kHome,
+  kTarget = kHome + 3,
+  kGripDistance = kTarget + 3,
+  kData,
+};
+
+[[noreturn]] void damaged(const sqlite::Statement& row, const std::string& what) {
+  throw std::runtime_error("motion " + std::to_string(row.integer(kId)) + " " + what);
+}
+
+double finite(const sqlite::Statement& row, int column, const char* name) {
+  const double value = row.real(column);
+  if (row.is_null(column) || !std::isfinite(value)) {
+    damaged(row, std::string("has ") + (row.is_null(column) ? "no" : "an infinite") + " " + name);
+  }
+  return value;
+}
+
+std::optional<double> optional_finite(const sqlite::Statement& row, int column, const char* name) {
+  if (row.is_null(column)) return std::nullopt;
+  return finite(row, column, name);
+}
+
+Vec3 finite_point(const sqlite::Statement& row, int column, const char* name) {
+  return {finite(row, column, name), finite(row, column + 1, name), finite(row, column + 2, name)};
+}
+
+Subject read_subject(const sqlite::Statement& row) {
+  Subject subject;
+  subject.stature_m = finite(row, kStature, "stature");
+  if (!row.is_null(kSex)) subject.sex = row.text(kSex) == "female" ? Sex::female : Sex::male;
+  subject.age_years = optional_finite(row, kAge, "age");
+  subject.mass_kg = optional_finite(row, kMass, "mass");
+  return subject;
+}
+
+Eigen::VectorXd read_coefficients(const sqlite::Statement& row, std::int64_t code_length) {
+  const std::span<const std::byte> bytes = row.blob(kData);
+  if (std::cmp_not_equal(bytes.size(), 8 * code_length)) {
+    damaged(row, "has " + std::to_string(bytes.size()) + " bytes of coefficients, expected " +
+                     std::to_string(8 * code_length));
+  }
+  Eigen::VectorXd coefficients(code_length);
+  for (std::size_t i = 0; i < bytes.size(); i += 8) {
+    std::uint64_t bits = 0;
+    for (std::size_t k = 0; k < 8; ++k) bits |= std::to_integer<std::uint64_t>(bytes[i + k]) << (8 * k);
+    coefficients[static_cast<Eigen::Index>(i / 8)] = std::bit_cast<double>(bits);
+  }
+  if (!coefficients.allFinite()) damaged(row, "has a coefficient that is not finite");
+  return coefficients;
+}
+
+std::string number_complaint(const char* name, double value, bool zero_is_legal) {
+  if (std::isfinite(value) && (value > 0.0 || (zero_is_legal && value == 0.0))) return "";
+  return std::string(name) + " is " + std::to_string(value) + ", expected a finite number " +
+         (zero_is_legal ? ">= 0" : "> 0");
+}
+
+std::optional<std::string_view> sex_name(const std::optional<Sex>& sex) {
+  if (!sex) return std::nullopt;
+  return *sex == Sex::female ? "female" : "male";
+}
+
+}  // namespace
+
+std::string select(bool with_coefficients, const std::string& condition) {
+  // Outer joins keep a motion whose subject or source is gone, so that it is reported and not skipped.
+  return std::string(
+             "SELECT m.id, m.subject, s.stature_m, s.sex, s.age_years, s.mass_kg, m.phase, o.origin, m.mirrored,"
+             " m.duration_s, m.home_x, m.home_y, m.home_z, m.target_x, m.target_y, m.target_z, m.grip_distance_m") +
+         (with_coefficients ? ", c.data" : "") +
+         " FROM motions m LEFT JOIN subjects s ON s.id = m.subject LEFT JOIN sources o ON o.id = m.source" +
+         (with_coefficients ? " LEFT JOIN coefficients c ON c.motion = m.id " : " ") + condition + " ORDER BY m.id";
+}
+
+std::string complaint(const MotionCode& code) {
+  if (code.origin.empty()) return "origin is empty, expected the file and frames that identify the motion";
+  if (!is_finite(code.home)) return "home is not finite";
+  if (!is_finite(code.target)) return "target is not finite";
+  if (code.coefficients.size() == 0) return "coefficients is empty, expected at least 1 value";
+  for (Eigen::Index i = 0; i < code.coefficients.size(); ++i) {
+    if (std::isfinite(code.coefficients[i])) continue;
+    return "coefficients[" + std::to_string(i) + "] is " + std::to_string(code.coefficients[i]) +
+           ", expected a finite number";
+  }
+  std::string found = number_complaint("duration_s", code.duration_s, false);
+  if (found.empty()) found = number_complaint("grip_distance_m", code.grip_distance_m, true);
+  if (found.empty()) found = number_complaint("subject.stature_m", code.subject.stature_m, false);
+  if (found.empty()) found = number_complaint("subject.age_years", code.subject.age_years.value_or(0.0), true);
+  if (found.empty()) found = number_complaint("subject.mass_kg", code.subject.mass_kg.value_or(1.0), false);
+  return found;
+}
+
+std::vector<std::byte> to_blob(const Eigen::VectorXd& coefficients) {
+  std::vector<std::byte> bytes(static_cast<std::size_t>(coefficients.size()) * 8);
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const auto bits = std::bit_cast<std::uint64_t>(coefficients[static_cast<Eigen::Index>(i / 8)]);
+    bytes[i] = static_cast<std::byte>((bits >> (8 * (i % 8))) & 0xFFU);
+  }
+  return bytes;
+}
+
+MotionSummary read_summary(const sqlite::Statement& row) {
+  MotionSummary motion;
+  motion.id = row.integer(kId);
+  motion.subject_id = row.integer(kSubject);
+  motion.subject = read_subject(row);
+  const std::optional<Phase> phase = find_phase(row.text(kPhase));
+  if (!phase) damaged(row, "has the unknown phase '" + std::string(row.text(kPhase)) + "'");
+  motion.phase = *phase;
+  if (row.is_null(kOrigin)) damaged(row, "has no origin");
+  motion.origin = row.text(kOrigin);
+  motion.is_mirrored = row.integer(kMirrored) != 0;
+  motion.duration_s = finite(row, kDuration, "duration");
+  motion.home = finite_point(row, kHome, "home");
+  motion.target = finite_point(row, kTarget, "target");
+  motion.grip_distance_m = finite(row, kGripDistance, "grip distance");
+  return motion;
+}
+
+StoredMotion read_motion(const sqlite::Statement& row, std::int64_t code_length) {
+  MotionSummary summary = read_summary(row);
+  MotionCode code;
+  code.subject = summary.subject;
+  code.phase = summary.phase;
+  code.origin = std::move(summary.origin);
+  code.is_mirrored = summary.is_mirrored;
+  code.duration_s = summary.duration_s;
+  code.home = summary.home;
+  code.target = summary.target;
+  code.grip_distance_m = summary.grip_distance_m;
+  code.coefficients = read_coefficients(row, code_length);
+  return {summary.id, std::move(code)};
+}
+
+Writer::Writer(sqlite::Connection& connection)
+    : connection_(connection),
+      find_subject_(connection,
+                    "SELECT id FROM subjects WHERE stature_m = ? AND sex IS ? AND age_years IS ? AND mass_kg IS ?"),
+      insert_subject_(connection, "INSERT INTO subjects (stature_m, sex, age_years, mass_kg) VALUES (?, ?, ?, ?)"),
+      find_source_(connection, "SELECT id FROM sources WHERE origin = ?"),
+      insert_source_(connection, "INSERT INTO sources (origin) VALUES (?)"),
+      find_motion_(connection, "SELECT id FROM motions WHERE source = ? AND mirrored = ? AND phase = ?"),
+      insert_motion_(connection,
+                     "INSERT INTO motions (source, mirrored, phase, subject, duration_s, home_x, home_y, home_z,"
+                     " target_x, target_y, target_z, grip_distance_m) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+      insert_coefficients_(connection, "INSERT INTO coefficients (motion, data) VALUES (?, ?)") {}
+
+namespace {
+
+/// The id that `find` yields; if it yields none, runs `insert` with the same parameters and takes the new id.
+template <typename Bind>
+std::int64_t find_or_insert(sqlite::Connection& connection, sqlite::Statement& find, sqlite::Statement& insert,
+                            const Bind& bind) {
+  bind(find);
+  const bool found = find.step();
+  const std::int64_t id = found ? find.integer(0) : 0;
+  find.reset();
+  if (found) return id;
+  bind(insert);
+  insert.run();
+  return connection.last_id();
+}
+
+}  // namespace
+
+std::int64_t Writer::subject_id(const Subject& subject) {
+  return find_or_insert(connection_, find_subject_, insert_subject_, [&](sqlite::Statement& statement) {
+    statement.bind(1, subject.stature_m);
+    statement.bind(2, sex_name(subject.sex));
+    statement.bind(3, subject.age_years);
+    statement.bind(4, subject.mass_kg);
+  });
+}
+
+std::int64_t Writer::source_id(const std::string& origin) {
+  return find_or_insert(connection_, find_source_, insert_source_,
+                        [&](sqlite::Statement& statement) { statement.bind(1, std::string_view(origin)); });
+}
+
+std::int64_t Writer::add(const MotionCode& code) {
+  const std::int64_t source = source_id(code.origin);
+  find_motion_.bind(1, source);
+  find_motion_.bind(2, std::int64_t{code.is_mirrored});
+  find_motion_.bind(3, phase_name(code.phase));
+  const bool found = find_motion_.step();
+  const std::int64_t id = found ? find_motion_.integer(0) : 0;
+  find_motion_.reset();
+  return found ? id : insert(code, source);
+}
+
+std::int64_t Writer::insert(const MotionCode& code, std::int64_t source) {
+  insert_motion_.bind(1, source);
+  insert_motion_.bind(2, std::int64_t{code.is_mirrored});
+  insert_motion_.bind(3, phase_name(code.phase));
+  insert_motion_.bind(4, subject_id(code.subject));
+  insert_motion_.bind(5, code.duration_s);
+  for (int axis = 0; axis < 3; ++axis) {
+    insert_motion_.bind(6 + axis, code.home[axis]);
+    insert_motion_.bind(9 + axis, code.target[axis]);
+  }
+  insert_motion_.bind(12, code.grip_distance_m);
+  insert_motion_.run();
+  const std::int64_t id = connection_.last_id();
+  const std::vector<std::byte> data = to_blob(code.coefficients);
+  insert_coefficients_.bind(1, id);
+  insert_coefficients_.bind(2, std::span<const std::byte>(data));
+  insert_coefficients_.run();
+  return id;
+}
+
+}  // namespace reachcast::rows
