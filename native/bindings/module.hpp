@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// One function per concept; each adds its classes and functions to reachcast_core.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+void bind_body(pybind11::module_& m);
+void bind_posture(pybind11::module_& m);
+void bind_curves(pybind11::module_& m);
+void bind_mocap(pybind11::module_& m);
+void bind_corpus(pybind11::module_& m);
+void bind_predict(pybind11::module_& m);

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A reach in, its motion code out (Faraway 2004, sections 3.1-3.3), and the parts of a code by name.
+#pragma once
+
+#include "reachcast/curves/endpoint_path.hpp"
+#include "reachcast/motion/motion_code.hpp"
+
+namespace reachcast {
+
+/// Number of coefficients of a code: the path of the hold point, then eight per posture coordinate.
+[[nodiscard]] Eigen::Index code_length();
+
+/// Throws std::invalid_argument naming the origin of the reach when it has fewer than 4 postures, a value that is not
+/// finite, no positive duration, or a hold point that ends within 1 cm of where it began.
+[[nodiscard]] MotionCode encode_reach(const Reach& reach);
+
+/// The path of the hold point kept in a code.
+[[nodiscard]] EndpointPath path_of(const MotionCode& code);
+void set_path(MotionCode& code, const EndpointPath& path);
+
+/// Posture coordinates (two_handed_linkage) at scaled time t.
+[[nodiscard]] Eigen::VectorXd coordinates_at(const MotionCode& code, double t);
+
+}  // namespace reachcast

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Which recorded motions are like the one wanted (Faraway 2004, sections 3.4 and 5).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "reachcast/corpus/corpus.hpp"
+
+namespace reachcast {
+
+/// What is wanted, in the terms in which motions are stored.
+struct Query {
+  Phase phase = Phase::transfer;
+  Vec3 home{0.0};    ///< hold point at the start, body frame
+  Vec3 target{0.0};  ///< hold point at the end, body frame
+  double stature_m = 0.0;
+};
+
+struct Neighbour {
+  std::int64_t id = 0;
+  std::string origin;
+  bool is_mirrored = false;
+  double weight = 0.0;  ///< triangular: k, k-1, ..., 1 over their sum
+  double target_distance_m = 0.0;
+  double home_distance_m = 0.0;
+  double stature_difference_m = 0.0;
+};
+
+/// The k motions of the wanted phase with the smallest rank sum: rank of the target's distance + rank of the stature's
+/// difference (p. 549) + rank of the home's distance. The paper's boxes all started from one place; recordings of
+/// others do not. Equal values share the smallest rank; equal sums go by id. Fewer than k motions: all of them.
+/// Throws std::invalid_argument when k < 1 or the phase has no motion.
+[[nodiscard]] std::vector<Neighbour> nearest_motions(std::span<const MotionSummary> motions, const Query& query, int k);
+
+}  // namespace reachcast

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reachcast/motion/encode.hpp"
+
+#include <stdexcept>
+
+#include "reachcast/curves/bspline.hpp"
+#include "reachcast/posture/whole_body.hpp"
+
+namespace reachcast {
+namespace {
+
+// Layout of MotionCode::coefficients: velocity (6), deviation x, y, z (6 each), then posture coordinates, 8 coefficients
+// each, coordinate by coordinate.
+constexpr Eigen::Index kPathLength = 4 * kPathBasisCount;
+
+void check(const Reach& reach) {
+  const auto fail = [&](const std::string& what) { throw std::invalid_argument(reach.origin + ": " + what); };
+  if (reach.frames() < 4) fail("the reach has " + std::to_string(reach.frames()) + " postures; at least 4 are needed");
+  if (!(reach.duration_s > 0.0)) fail("the duration is " + std::to_string(reach.duration_s) + " s; it must be positive");
+  for (std::size_t f = 0; f < reach.frames(); ++f) {
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      if (!is_finite(reach.postures[f][j])) {
+        fail("joint " + std::string(joint_names()[j]) + " is not finite in posture " + std::to_string(f));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Eigen::Index code_length() { return kPathLength + kBasisCount * posture_coordinate_count(two_handed_linkage()); }
+
+MotionCode encode_reach(const Reach& reach) {
+  check(reach);
+  MotionCode code;
+  code.subject = reach.subject;
+  code.phase = reach.phase;
+  code.origin = reach.origin;
+  code.duration_s = reach.duration_s;
+  code.home = reach.hold_point(0);
+  code.target = reach.hold_point(reach.frames() - 1);
+  const Posture& first = reach.postures.front();
+  code.grip_distance_m = glm::distance(first[index(Joint::left_grip)], first[index(Joint::right_grip)]);
+  code.coefficients.resize(code_length());
+
+  Points holds;
+  Eigen::MatrixXd coordinates(reach.frames(), posture_coordinate_count(two_handed_linkage()));
+  for (std::size_t f = 0; f < reach.frames(); ++f) {
+    holds.push_back(reach.hold_point(f));
+    coordinates.row(static_cast<Eigen::Index>(f)) = encode_posture(two_handed_linkage(), reach.postures[f]).transpose();
+  }
+  try {
+    set_path(code, fit_endpoint_path(holds));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(reach.origin + ": hold point: " + error.what());
+  }
+  code.coefficients.tail(code_length() - kPathLength) = fit_bspline(coordinates).reshaped();
+  return code;
+}
+
+EndpointPath path_of(const MotionCode& code) {
+  EndpointPath path;
+  path.velocity = code.coefficients.head<kPathBasisCount>();
+  path.deviation = code.coefficients.segment<3 * kPathBasisCount>(kPathBasisCount).reshaped(kPathBasisCount, 3);
+  return path;
+}
+
+void set_path(MotionCode& code, const EndpointPath& path) {
+  code.coefficients.head<kPathBasisCount>() = path.velocity;
+  code.coefficients.segment<3 * kPathBasisCount>(kPathBasisCount) = path.deviation.reshaped();
+}
+
+Eigen::VectorXd coordinates_at(const MotionCode& code, double t) {
+  const Eigen::Index count = posture_coordinate_count(two_handed_linkage());
+  const Eigen::Map<const Eigen::MatrixXd> curves(code.coefficients.data() + kPathLength, kBasisCount, count);
+  return (bspline_row(t) * curves).transpose();
+}
+
+}  // namespace reachcast

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reachcast/posture/hold.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace reachcast {
+namespace {
+
+constexpr double kMargin_m = 1e-4;     // limbs are brought this far inside their reach
+constexpr double kTolerance_m = 1e-6;  // when the trunk's search is done
+constexpr int kMostRounds = 400;
+
+using Corners = std::array<Vec3, 4>;
+
+struct RigidMotion {
+  Mat3 rotation{1.0};
+  Vec3 pivot{0.0}, moved_pivot{0.0};
+  [[nodiscard]] Vec3 operator()(const Vec3& p) const { return moved_pivot + rotation * (p - pivot); }
+};
+
+/// The rigid motion that brings `from` nearest to `to` in the least-squares sense (Kabsch 1976).
+RigidMotion nearest_rigid_motion(const Corners& from, const Corners& to) {
+  Vec3 a(0.0), b(0.0);
+  for (std::size_t i = 0; i < 4; ++i) a += 0.25 * from[i], b += 0.25 * to[i];
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < 4; ++i) covariance += to_eigen(to[i] - b) * to_eigen(from[i] - a).transpose();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d signs(1.0, 1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0);
+  const Eigen::Matrix3d r = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  return {Mat3(to_glm(r.col(0)), to_glm(r.col(1)), to_glm(r.col(2))), a, b};
+}
+
+/// The nearest point to `root` from which a limb with this reach spans to `anchor`.
+Vec3 brought_within(const Interval& reach, const Vec3& root, const Vec3& anchor) {
+  const double across = glm::distance(root, anchor);
+  const double margin = std::min(kMargin_m, 0.25 * (reach.hi - reach.lo));
+  const double wanted = std::clamp(across, reach.lo + margin, reach.hi - margin);
+  if (across < 1e-9) return anchor + Vec3(0, 0, wanted);
+  return anchor + (root - anchor) * (wanted / across);
+}
+
+const std::array<Joint, 16> kTrunk{Joint::left_hip,      Joint::right_hip,     Joint::l5s1,           Joint::c7t1,
+                                   Joint::suprasternale, Joint::left_clavicle, Joint::right_clavicle, Joint::left_shoulder,
+                                   Joint::right_shoulder, Joint::tragion,      Joint::nasion,         Joint::left_knee,
+                                   Joint::right_knee,    Joint::left_elbow,    Joint::right_elbow,    Joint::l5s1};
+
+ChainSpec leg(Joint ankle, Joint knee, Joint hip, const FlexionLimit& limit) {
+  return {"leg", {hip, knee, ankle}, {knee}, {{knee, limit}}, {}};
+}
+
+const ChainSpec& limb_named(const Linkage& linkage, std::string_view name) {
+  return *std::find_if(linkage.limbs.begin(), linkage.limbs.end(), [&](const ChainSpec& s) { return s.name == name; });
+}
+
+ChainSpec mirrored_spec(ChainSpec spec) {
+  for (Joint& j : spec.joints) j = mirrored(j);
+  for (Joint& j : spec.pivots) j = mirrored(j);
+  for (auto& [j, limit] : spec.limits) j = mirrored(j);
+  return spec;
+}
+
+}  // namespace
+
+Holder::Holder(const Linkage& linkage, const Body& body)
+    : limbs_([&]() -> std::array<Limb, 4> {
+        const FlexionLimit knee = limb_named(linkage, "right leg").limits.front().second;
+        const ChainSpec right_leg = leg(Joint::right_ankle, Joint::right_knee, Joint::right_hip, knee);
+        const ChainSpec left_arm = limb_named(linkage, "left arm");
+        const auto limb = [&](const ChainSpec& spec) { return Limb{spec, chain_of(spec, body.posture(), true)}; };
+        return {limb(mirrored_spec(right_leg)), limb(right_leg), limb(left_arm), limb(mirrored_spec(left_arm))};
+      }()),
+      body_(body) {}
+
+HoldReport Holder::hold(Posture& posture, const Anchors& anchors) const {
+  const std::array<Vec3, 4> ends{anchors.ankle[0], anchors.ankle[1], anchors.grip[0], anchors.grip[1]};
+  // The limbs' own coordinates, before anything moves.
+  std::array<std::vector<double>, 4> coordinates;
+  Corners roots;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Limb& limb = limbs_[i];
+    Points points;
+    for (const Joint j : limb.spec.joints) points.push_back(posture[index(j)]);
+    coordinates[i].resize(limb.chain.coordinate_count());
+    limb.chain.encode(points, coordinates[i]);
+    roots[i] = points.front();
+  }
+  Corners now = roots;
+  HoldReport report;
+  for (int round = 0; round < kMostRounds; ++round) {
+    Corners wanted;
+    double worst = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      wanted[i] = brought_within(limbs_[i].chain.reach(), now[i], ends[i]);
+      const double gap = glm::distance(wanted[i], now[i]);
+      if (gap > worst) worst = gap, report.shortfall_from = limbs_[i].spec.joints.front();
+    }
+    report.shortfall_m = worst;
+    if (worst < kTolerance_m) break;
+    const RigidMotion step = nearest_rigid_motion(now, wanted);
+    for (Vec3& p : now) p = step(p);
+  }
+  const RigidMotion motion = nearest_rigid_motion(roots, now);
+  if (glm::distance(roots[0], now[0]) + glm::distance(roots[3], now[3]) > 0.0) {
+    const Vec3 before = posture[index(Joint::l5s1)];
+    for (std::size_t j = 0; j < kTrunk.size() - 1; ++j) posture[index(kTrunk[j])] = motion(posture[index(kTrunk[j])]);
+    report.trunk_shift_m = glm::distance(before, posture[index(Joint::l5s1)]);
+    const double trace = motion.rotation[0][0] + motion.rotation[1][1] + motion.rotation[2][2];
+    report.trunk_turn_rad = std::acos(std::clamp(0.5 * (trace - 1.0), -1.0, 1.0));
+  }
+  if (report.shortfall_m < kMargin_m) report.shortfall_m = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Limb& limb = limbs_[i];
+    const Vec3 root = posture[index(limb.spec.joints.front())];
+    const double across = glm::distance(root, ends[i]);
+    const double wanted = std::clamp(across, limb.chain.reach().lo, limb.chain.reach().hi);
+    const Vec3 end = report.shortfall_m > 0.0 ? root + (ends[i] - root) * (wanted / across) : ends[i];
+    Points points(limb.spec.joints.size());
+    limb.chain.decode(root, end, coordinates[i], points);
+    for (std::size_t j = 0; j < points.size(); ++j) posture[index(limb.spec.joints[j])] = points[j];
+  }
+  for (std::size_t side = 0; side < 2; ++side) {  // the foot goes with its ankle
+    const Vec3 missed = posture[index(limbs_[side].spec.joints.back())] - anchors.ankle[side];
+    posture[index(side == 0 ? Joint::left_ball : Joint::right_ball)] = anchors.ball[side] + missed;
+  }
+  return report;
+}
+
+}  // namespace reachcast

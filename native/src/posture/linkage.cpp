@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reachcast/posture/linkage.hpp"
+
+namespace reachcast {
+namespace {
+
+// Ranges of motion of healthy adults (American Academy of Orthopaedic Surgeons, 1965: elbow 0-150 degrees, knee 0-135;
+// deep squats of the recordings bend knees to 134 included 46). The lower bounds keep a bend in the limb: a straight
+// limb has no plane, and people do not lock elbows or knees under a load.
+constexpr FlexionLimit kElbow{0.12, 2.60};
+constexpr FlexionLimit kKnee{0.07, 2.60};
+
+Linkage make_two_handed() {
+  using enum Joint;
+  Linkage linkage;
+  linkage.primary = {"primary",
+                     {left_ball, left_ankle, left_knee, left_hip, l5s1, right_clavicle, right_shoulder, right_elbow, right_wrist, right_grip},
+                     {right_clavicle, left_hip, right_shoulder, right_wrist, left_ankle},
+                     {{right_elbow, kElbow}, {left_knee, kKnee}},
+                     {{left_hip, 0.3}, {l5s1, 0.5}, {right_clavicle, 0.7}, {right_shoulder, 1.0}, {right_elbow, 1.0}, {right_wrist, 1.0}}};
+  linkage.parts = {{"pelvis", left_hip, l5s1, right_hip, {}, 0.4},
+                   {"chest", l5s1, right_clavicle, c7t1, {suprasternale, left_clavicle}, 0.8}};
+  linkage.limbs = {{"right leg", {right_hip, right_knee, right_ankle, right_ball}, {right_ankle}, {{right_knee, kKnee}}, {}},
+                   {"left arm",
+                    {left_clavicle, left_shoulder, left_elbow, left_wrist, left_grip},
+                    {left_shoulder, left_wrist},
+                    {{left_elbow, kElbow}},
+                    {{left_shoulder, 1.0}, {left_elbow, 1.0}, {left_wrist, 1.0}}}};
+  linkage.pointers = {{c7t1, tragion, 1}, {tragion, nasion, 1}};
+  return linkage;
+}
+
+}  // namespace
+
+const Linkage& two_handed_linkage() {
+  static const Linkage linkage = make_two_handed();
+  return linkage;
+}
+
+}  // namespace reachcast

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reachcast/predict/predict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+
+#include "reachcast/motion/encode.hpp"
+#include "reachcast/posture/hold.hpp"
+#include "reachcast/posture/linkage.hpp"
+
+namespace reachcast {
+namespace {
+
+constexpr double kPause_s = 0.25;     // hands on the box before it leaves and after it stands
+constexpr double kAfter_s = 0.4;      // held pose after letting go
+constexpr double kAnticipation = 0.2; // share of the transfer over which the body gets going and comes to rest
+constexpr double kFarFromData_m = 0.25;
+constexpr double kStatureMargin_m = 0.03;
+
+template <class... Parts>
+[[noreturn]] void fail(const Parts&... parts) {
+  std::ostringstream out;
+  (out << ... << parts);
+  throw std::invalid_argument(out.str());
+}
+
+void check(const Subject& subject, const PredictOptions& options) {
+  if (!(subject.stature_m >= 0.5 && subject.stature_m <= 2.6)) {
+    fail("stature is ", subject.stature_m, " m; it must lie between 0.5 and 2.6 m");
+  }
+  if (!(options.frame_rate >= 1.0 && options.frame_rate <= 1000.0)) {
+    fail("frame_rate is ", options.frame_rate, "; it must lie between 1 and 1000");
+  }
+  if (options.duration_s && !(*options.duration_s >= 0.1 && *options.duration_s <= 60.0)) {
+    fail("duration is ", *options.duration_s, " s; it must lie between 0.1 and 60 s");
+  }
+}
+
+Vec3 hold_point(const Box& box, const Vec3& place) { return place + Vec3(0, 0, box.handle_height_m); }
+
+/// Weighted mean of the neighbours' codes; paths are carried onto the wanted axis first.
+MotionCode mean_code(const std::vector<StoredMotion>& stored, const std::vector<Neighbour>& neighbours, const Query& query) {
+  MotionCode mean;
+  mean.phase = query.phase;
+  mean.home = query.home;
+  mean.target = query.target;
+  mean.coefficients = Eigen::VectorXd::Zero(code_length());
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    MotionCode code = stored[i].code;
+    if (code.coefficients.size() != code_length()) {
+      fail("motion ", stored[i].id, " of the corpus has ", code.coefficients.size(), " coefficients; this version needs ",
+           code_length());
+    }
+    set_path(code, carried(path_of(code), code.target - code.home, query.target - query.home));
+    mean.coefficients += neighbours[i].weight * code.coefficients;
+    mean.duration_s += neighbours[i].weight * code.duration_s;
+  }
+  return mean;
+}
+
+std::vector<std::string> why_outside(const std::vector<MotionSummary>& motions, const Query& query) {
+  double target = 1e9, home = 1e9, shortest = 1e9, tallest = 0.0;
+  for (const MotionSummary& m : motions) {
+    if (m.phase != query.phase) continue;
+    target = std::min(target, glm::distance(m.target, query.target));
+    home = std::min(home, glm::distance(m.home, query.home));
+    shortest = std::min(shortest, m.subject.stature_m);
+    tallest = std::max(tallest, m.subject.stature_m);
+  }
+  std::vector<std::string> reasons;
+  const auto add = [&](const auto&... parts) {
+    std::ostringstream out;
+    out << std::fixed << std::setprecision(2);
+    (out << ... << parts);
+    reasons.push_back(out.str());
+  };
+  if (target > kFarFromData_m) add("the nearest recorded target is ", target, " m away");
+  if (home > kFarFromData_m) add("the nearest recorded home is ", home, " m away");
+  if (query.stature_m < shortest - kStatureMargin_m || query.stature_m > tallest + kStatureMargin_m) {
+    add("stature ", query.stature_m, " m lies outside the recorded ", shortest, " to ", tallest, " m");
+  }
+  return reasons;
+}
+
+Events schedule(double duration_s, double rate) {
+  const auto frames = [&](double seconds) { return static_cast<std::size_t>(std::max(1L, std::lround(seconds * rate))); };
+  Events e;
+  e.lift_off = e.grasp + frames(kPause_s);
+  e.placed = e.lift_off + std::max<std::size_t>(4, frames(duration_s));
+  e.release = e.placed + frames(kPause_s);
+  e.end = e.release + frames(kAfter_s);
+  return e;
+}
+
+/// Scaled time of the hands: 0 until lift-off, 1 from placed on.
+double path_time(const Events& e, std::size_t frame) {
+  const double t = (static_cast<double>(frame) - static_cast<double>(e.lift_off)) / static_cast<double>(e.placed - e.lift_off);
+  return std::clamp(t, 0.0, 1.0);
+}
+
+/// Scaled time of the posture: the body gathers way while the hands still grip and settles while they let go, so that
+/// it neither starts nor stops with a jerk. Constant speed between two ramps.
+double posture_time(const Events& e, std::size_t frame) {
+  const double whole = static_cast<double>(e.release - e.grasp);
+  const double ramp = static_cast<double>(e.lift_off - e.grasp) + kAnticipation * static_cast<double>(e.placed - e.lift_off);
+  const double speed = 1.0 / (whole - ramp);
+  const double t = std::clamp(static_cast<double>(frame) - static_cast<double>(e.grasp), 0.0, whole);
+  if (t < ramp) return 0.5 * speed * t * t / ramp;
+  if (t > whole - ramp) return 1.0 - 0.5 * speed * (whole - t) * (whole - t) / ramp;
+  return speed * (t - 0.5 * ramp);
+}
+
+BoxPose box_at(const Task& task, const EndpointPath& path, double t) {
+  const double whole_turn = std::remainder(task.target_yaw_rad - task.home_yaw_rad, 2.0 * kPi);
+  return {point_at(path, task.home, task.target, t), task.home_yaw_rad + progress(path, t) * whole_turn};
+}
+
+Anchors anchors_for(const Body& body, const Task& task, const BoxPose& pose) {
+  Anchors anchors = anchors_of(body.posture());
+  anchors.grip = {grip_of(task.object, pose, true), grip_of(task.object, pose, false)};
+  return anchors;
+}
+
+std::string readable(Joint joint) {
+  std::string name(joint_name(joint));
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+[[noreturn]] void fail_out_of_reach(const HoldReport& report, const Events& e, std::size_t frame, const BoxPose& pose) {
+  const std::string place = frame <= e.lift_off ? "home" : frame >= e.placed ? "target" : "path of the box";
+  fail("the ", place, " at (", std::setprecision(3), pose.position.x, ", ", pose.position.y, ", ", pose.position.z,
+       ") m from the feet is ", std::fixed, std::setprecision(1), 100.0 * report.shortfall_m, " cm out of reach from the ",
+       readable(report.shortfall_from));
+}
+
+}  // namespace
+
+Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task& task, const Body& body,
+                        const PredictOptions& options) {
+  check(task);
+  check(subject, options);
+  const Query query{Phase::transfer, hold_point(task.object, task.home), hold_point(task.object, task.target), subject.stature_m};
+  if (glm::distance(query.home, query.target) < 0.01) {
+    fail("home and target are ", glm::distance(query.home, query.target), " m apart; they must be at least 0.01 m apart");
+  }
+  const std::vector<MotionSummary> summaries = corpus.summaries();
+  if (summaries.empty()) fail("the corpus ", corpus.path().string(), " holds no motions; import some first");
+  Motion motion;
+  motion.neighbours = nearest_motions(summaries, query, options.neighbours);
+  motion.outside_data = why_outside(summaries, query);
+  std::vector<std::int64_t> ids;
+  for (const Neighbour& n : motion.neighbours) ids.push_back(n.id);
+  const MotionCode code = mean_code(corpus.load(ids), motion.neighbours, query);
+
+  motion.duration_s = options.duration_s.value_or(code.duration_s);
+  motion.events = schedule(motion.duration_s, options.frame_rate);
+  const EndpointPath path = path_of(code);
+  const BodyLinkage linkage(two_handed_linkage(), body);
+  const Holder holder(two_handed_linkage(), body);
+  Correction trunk{"trunk", 0.0, 0.0, 0};
+  std::optional<std::pair<std::size_t, HoldReport>> worst;
+  for (std::size_t frame = 0; frame <= motion.events.end; ++frame) {
+    const BoxPose pose = box_at(task, path, path_time(motion.events, frame));
+    const Anchors anchors = anchors_for(body, task, pose);
+    Posture posture = linkage.decode(coordinates_at(code, posture_time(motion.events, frame)), anchors);
+    const HoldReport report = holder.hold(posture, anchors);
+    if (report.shortfall_m > 0.0 && (!worst || report.shortfall_m > worst->second.shortfall_m)) worst = {frame, report};
+    trunk.amount_m = std::max(trunk.amount_m, report.trunk_shift_m);
+    trunk.amount_rad = std::max(trunk.amount_rad, report.trunk_turn_rad);
+    trunk.frames += report.trunk_shift_m > 1e-3 ? 1 : 0;
+    motion.postures.push_back(posture);
+    motion.box.push_back(pose);
+    motion.times_s.push_back(static_cast<double>(frame) / options.frame_rate);
+  }
+  if (worst) fail_out_of_reach(worst->second, motion.events, worst->first, motion.box[worst->first]);
+  if (trunk.frames > 0) motion.corrections.push_back(trunk);
+  return motion;
+}
+
+}  // namespace reachcast

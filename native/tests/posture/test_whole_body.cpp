@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reachcast/posture/whole_body.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "reachcast/posture/hold.hpp"
+
+namespace reachcast {
+namespace {
+
+using enum Joint;
+using Random = std::mt19937_64;
+constexpr double kTolerance_m = 1e-9;
+
+/// Links, and the sides of the rigid triangles.
+const std::vector<std::pair<Joint, Joint>> kRigid{
+    {left_ball, left_ankle}, {left_ankle, left_knee}, {left_knee, left_hip}, {right_ball, right_ankle},
+    {right_ankle, right_knee}, {right_knee, right_hip}, {left_hip, right_hip}, {left_hip, l5s1}, {right_hip, l5s1},
+    {l5s1, c7t1}, {l5s1, left_clavicle}, {l5s1, right_clavicle}, {c7t1, left_clavicle}, {left_clavicle, right_clavicle},
+    {left_clavicle, left_shoulder}, {right_clavicle, right_shoulder}, {left_shoulder, left_elbow},
+    {right_shoulder, right_elbow}, {left_elbow, left_wrist}, {right_elbow, right_wrist}, {left_wrist, left_grip},
+    {right_wrist, right_grip}, {c7t1, tragion}, {tragion, nasion}};
+
+double worst_length(const Body& body, const Posture& p) {
+  double worst = 0.0;
+  for (const auto& [a, b] : kRigid) {
+    worst = std::max(worst, std::abs(glm::distance(p[index(a)], p[index(b)]) - body.distance(a, b)));
+  }
+  return worst;
+}
+
+/// A standing posture with both arms bent forward: something to encode that no limit touches.
+Posture bent_posture(const Body& body) {
+  Posture p = body.posture();
+  for (const bool left : {true, false}) {
+    const double side = left ? -1.0 : 1.0;
+    const auto at = [&](Joint right) -> Vec3& { return p[index(left ? mirrored(right) : right)]; };
+    at(right_elbow) = at(right_shoulder) + glm::normalize(Vec3(0.3 * side, 0.1, -1)) * body.distance(right_shoulder, right_elbow);
+    at(right_wrist) = at(right_elbow) + glm::normalize(Vec3(-0.2 * side, 1, 0.1)) * body.distance(right_elbow, right_wrist);
+    at(right_grip) = at(right_wrist) + glm::normalize(Vec3(-0.1 * side, 1, 0.4)) * body.distance(right_wrist, right_grip);
+    const Vec3 along = glm::normalize(at(right_grip) - at(right_wrist));
+    at(right_hand_front) = at(right_grip) + 0.02 * along;
+    at(right_hand_back) = at(right_grip) - 0.02 * along;
+    at(right_knee) += Vec3(0.02 * side, 0.03, 0.0);
+  }
+  return p;
+}
+
+TEST(WholeBody, DecodeInvertsEncodeOnTheSameBody) {
+  const Body body = Body::from_stature(1.75, Sex::male);
+  const Posture posture = bent_posture(body);
+  const Body same = Body::from_posture(posture, 1.75);
+  const BodyLinkage linkage(two_handed_linkage(), same);
+  const Posture back = linkage.decode(encode_posture(two_handed_linkage(), posture), anchors_of(posture));
+  // Stretches within 0.7 % of straight are clamped, which the standing legs are: joints may differ, the ends may not.
+  for (const Joint end : {left_ball, right_ball, left_grip, right_grip}) {
+    EXPECT_LT(glm::distance(back[index(end)], posture[index(end)]), kTolerance_m) << joint_name(end);
+  }
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    EXPECT_LT(glm::distance(back[j], posture[j]), 0.06) << joint_names()[j];
+  }
+}
+
+TEST(WholeBody, RandomCoordinatesKeepEverySegment) {
+  Random random(11);
+  std::normal_distribution<> normal;
+  std::uniform_real_distribution<> unit(-1, 1);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Body body = Body::from_stature(1.5 + 0.45 * std::abs(unit(random)), trial % 2 ? Sex::female : Sex::male);
+    const BodyLinkage linkage(two_handed_linkage(), body);
+    Eigen::VectorXd x(posture_coordinate_count(two_handed_linkage()));
+    for (double& v : x) v = 2.0 * normal(random);
+    Anchors anchors = anchors_of(body.posture());
+    const Vec3 hold(unit(random), 0.4 + 0.4 * unit(random), 1.0 + unit(random));
+    anchors.grip = {hold - Vec3(0.2, 0, 0), hold + Vec3(0.2, 0, 0)};
+    Posture posture = linkage.decode(x, anchors);
+    ASSERT_LT(worst_length(body, posture), kTolerance_m) << trial;
+    const HoldReport report = Holder(two_handed_linkage(), body).hold(posture, anchors);
+    ASSERT_LT(worst_length(body, posture), kTolerance_m) << trial;
+    if (report.shortfall_m > 0.0) continue;
+    for (const int side : {0, 1}) {
+      ASSERT_LT(glm::distance(posture[index(side ? right_grip : left_grip)], anchors.grip[side]), kTolerance_m);
+      ASSERT_LT(glm::distance(posture[index(side ? right_ankle : left_ankle)], anchors.ankle[side]), kTolerance_m);
+    }
+  }
+}
+
+TEST(WholeBody, TurningTheTaskTurnsTheUpperBody) {
+  const Body body = Body::from_stature(1.75);
+  const Posture posture = bent_posture(body);
+  const Eigen::VectorXd x = encode_posture(two_handed_linkage(), posture);
+  const BodyLinkage linkage(two_handed_linkage(), body);
+  Anchors right = anchors_of(posture);
+  const Vec3 hold = 0.5 * (right.grip[0] + right.grip[1]);
+  const Vec3 aside(hold.y + 0.0, hold.y * 0.5, hold.z);
+  const Vec3 half(0.2 * 0.4, -0.2 * 0.9, 0.0);
+  right.grip = {aside - half, aside + half};
+  Posture turned = linkage.decode(x, right);
+  (void)Holder(two_handed_linkage(), body).hold(turned, right);
+  const Vec3 across = turned[index(right_shoulder)] - turned[index(left_shoulder)];
+  EXPECT_LT(across.y, -0.1) << "the right shoulder goes back when the hands go right";
+}
+
+TEST(Hold, LeavesAReachablePostureAlone) {
+  const Body body = Body::from_posture(bent_posture(Body::from_stature(1.7)), 1.7);
+  Posture posture = body.posture();
+  const Posture before = posture;
+  const HoldReport report = Holder(two_handed_linkage(), body).hold(posture, anchors_of(posture));
+  EXPECT_EQ(report.shortfall_m, 0.0);
+  EXPECT_LT(report.trunk_shift_m, 0.01);  // knees of a stand are straighter than the limit allows
+  for (std::size_t j = 0; j < kJointCount; ++j) EXPECT_LT(glm::distance(posture[j], before[j]), 0.08);
+}
+
+TEST(Hold, SaysByHowMuchAnAnchorIsOutOfReach) {
+  const Body body = Body::from_stature(1.75);
+  Posture posture = body.posture();
+  Anchors anchors = anchors_of(posture);
+  for (Vec3& grip : anchors.grip) grip += Vec3(0, 0, 3.0);
+  const HoldReport report = Holder(two_handed_linkage(), body).hold(posture, anchors);
+  EXPECT_GT(report.shortfall_m, 0.2);
+}
+
+}  // namespace
+}  // namespace reachcast
