@@ -119,9 +119,8 @@ void read_frames(TextScanner& scanner, const BvhSkeleton& skeleton, double state
     if (++frames * joints > kMostPoints) {
       scanner.fail_found("at most " + std::to_string(kMostPoints / joints) + " frames", "more");
     }
-    for (const Vec3& point : kinematics.place(values)) {
-      file.positions.push_back(to_z_up(point, file.up) * file.metres_per_unit);
-    }
+    const Points& points = kinematics.place(values);
+    file.positions.insert(file.positions.end(), points.begin(), points.end());
   }
   if (frames == 0) scanner.fail_found("at least one frame", "none");
   if (static_cast<double>(frames) != stated_frames) {
@@ -130,30 +129,28 @@ void read_frames(TextScanner& scanner, const BvhSkeleton& skeleton, double state
   }
 }
 
-void choose_axes_and_unit(const BvhSkeleton& skeleton, const MotionFileOptions& options, MotionFile& file) {
-  const Points rest = skeleton.rest_pose();
-  const std::optional<char> seen = guess_up(file.names, rest);
+void choose_up(const MotionFileOptions& options, MotionFile& file) {
+  const std::optional<char> seen = guess_up(file.names, file.positions);
   file.up = options.up.value_or(seen.value_or('y'));
   if (!options.up) {
     add_note(file.note, std::string("Up is taken to be ") + file.up + (seen ? ", from head and feet." : ", as usual."));
   }
+}
+
+void choose_unit(const BvhSkeleton& skeleton, const MotionFileOptions& options, MotionFile& file) {
   if (options.metres_per_unit) {
     file.metres_per_unit = *options.metres_per_unit;
     return;
   }
-  const int axis = axis_index(file.up);
-  const auto [low, high] =
-      std::minmax_element(rest.begin(), rest.end(), [&](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });
-  const double height = (*high)[axis] - (*low)[axis];
+  const double height = skeleton.height();
   const std::optional<Unit> unit = guess_unit(height);
   if (!unit) {
-    throw std::invalid_argument(file.source +
-                                ": expected a rest skeleton that is 1.4 to 2.1 m tall in some known unit, found " +
-                                show(height) + " units along " + file.up + "; give metres_per_unit");
+    throw std::invalid_argument(file.source + ": expected a skeleton 1.4 to 2.1 m tall in some known unit, found " +
+                                show(height) + " units from foot to head; give metres_per_unit");
   }
   file.metres_per_unit = unit->metres;
   add_note(file.note, "The unit is taken to be " + std::string(unit->name) + ": the skeleton is " +
-                          show(std::round(height * unit->metres * 1e3) / 1e3) + " m tall.");
+                          show(std::round(height * unit->metres * 1e3) / 1e3) + " m from foot to head.");
 }
 
 }  // namespace
@@ -172,8 +169,10 @@ MotionFile parse_bvh(std::string_view text, const std::string& source, const Mot
   file.derived.assign(file.names.size(), false);
   const double stated_frames = read_field(scanner, "Frames");
   file.rate_hz = read_rate(scanner, options, file.note);
-  choose_axes_and_unit(skeleton, options, file);
+  choose_unit(skeleton, options, file);
   read_frames(scanner, skeleton, stated_frames, file);
+  choose_up(options, file);
+  for (Vec3& point : file.positions) point = to_z_up(point, file.up) * file.metres_per_unit;
   return file;
 }
 

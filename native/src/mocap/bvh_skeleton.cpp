@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bvh_skeleton.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <unordered_set>
+
+#include "units.hpp"
 
 namespace reachcast {
 namespace {
@@ -121,14 +124,27 @@ std::vector<std::string> BvhSkeleton::names() const {
   return all;
 }
 
-Points BvhSkeleton::rest_pose() const {
-  Points points;
-  points.reserve(joints.size());
-  for (const BvhJoint& joint : joints) {
-    const Vec3 parent = joint.parent < 0 ? Vec3(0.0) : points[static_cast<std::size_t>(joint.parent)];
-    points.push_back(parent + joint.offset);
+double BvhSkeleton::height() const {
+  std::vector<double> paths(joints.size(), 0.0);  // from the root, along the bones
+  Points rest(joints.size(), Vec3(0.0));
+  Vec3 low(0.0), high(0.0);
+  double to_head = 0.0;
+  double to_foot = 0.0;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (joints[i].parent < 0) continue;
+    const auto parent = static_cast<std::size_t>(joints[i].parent);
+    paths[i] = paths[parent] + glm::length(joints[i].offset);
+    rest[i] = rest[parent] + joints[i].offset;
+    low = glm::min(low, rest[i]);
+    high = glm::max(high, rest[i]);
+    const BodyEnd end = body_end(joints[i].name);
+    if (end == BodyEnd::high) to_head = std::max(to_head, paths[i]);
+    const bool is_tip = body_end(joints[parent].name) == BodyEnd::low;  // toes point forward, not down
+    if (end == BodyEnd::low && !is_tip) to_foot = std::max(to_foot, paths[i]);
   }
-  return points;
+  if (to_head > 0.0 && to_foot > 0.0) return to_head + to_foot;
+  const Vec3 extent = high - low;
+  return std::max({extent.x, extent.y, extent.z});
 }
 
 BvhSkeleton read_bvh_skeleton(TextScanner& scanner) {

@@ -26,8 +26,9 @@ struct BvhSkeleton {
   std::size_t channel_count = 0;  ///< numbers per frame
 
   [[nodiscard]] std::vector<std::string> names() const;
-  /// Joint centres with every rotation zero, file units.
-  [[nodiscard]] Points rest_pose() const;
+  /// Length of the stretched body: along the bones from the farthest ankle or foot to the root and on to the farthest
+  /// neck or head. The same in any pose. Where names do not tell, the largest extent of the skeleton at rest.
+  [[nodiscard]] double height() const;
 };
 
 /// Reads from HIERARCHY up to and including the word MOTION. Throws std::invalid_argument.

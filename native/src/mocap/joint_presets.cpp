@@ -29,11 +29,17 @@ constexpr Row kOmomo[] = {
 constexpr Row kLieblich[] = {{"@_ankle", "@ank"},   {"@_knee", "@knee"}, {"@_hip", "@hip"},
                              {"@_shoulder", "@sh"}, {"@_elbow", "@eb"},  {"@_wrist", "@w"}};
 
-// CMU's own conversion, Mixamo and most MotionBuilder exports.
+// Mixamo and most MotionBuilder exports.
 constexpr Row kMotionBuilder[] = {{"@_ball", "@ToeBase"},  {"@_ball", "@Foot_end"}, {"@_ankle", "@Foot"},
                                   {"@_knee", "@Leg"},      {"@_hip", "@UpLeg"},     {"@_shoulder", "@Arm"},
                                   {"@_elbow", "@ForeArm"}, {"@_wrist", "@Hand"},    {"@_hand_front", "@HandMiddle1"},
                                   {"c7t1", "Neck"},        {"tragion", "Head"}};
+
+// The CMU database as converted by cgspeed: its Neck lies below the shoulders, its LowerBack 0.06 statures above the
+// hips.
+constexpr Row kCmu[] = {{"@_ball", "@ToeBase"}, {"@_ankle", "@Foot"},    {"@_knee", "@Leg"},   {"@_hip", "@UpLeg"},
+                        {"@_shoulder", "@Arm"}, {"@_elbow", "@ForeArm"}, {"@_wrist", "@Hand"}, {"l5s1", "LowerBack"},
+                        {"c7t1", "Neck1"},      {"tragion", "Head"}};
 
 // Joints named by what they join: MotionBuilder's older exports and CMU's "-Motionbuilder-friendly" conversion.
 constexpr Row kAnatomical[] = {
@@ -59,6 +65,7 @@ constexpr Row kPoser[] = {{"@_ball", "@Toe"},      {"@_ball", "@Foot_end"}, {"@_
 constexpr Table kTables[] = {{"omomo", "L", "R", kOmomo},
                              {"lieblich", "L", "R", kLieblich},
                              {"motionbuilder", "Left", "Right", kMotionBuilder},
+                             {"cmu", "Left", "Right", kCmu},
                              {"anatomical", "Left", "Right", kAnatomical},
                              {"biovision", "Left", "Right", kBiovision},
                              {"iclone", "L", "R", kIClone},

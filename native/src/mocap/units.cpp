@@ -23,14 +23,6 @@ constexpr std::array<Unit, 6> kUnits{{{1.0, "metres"},
                                       {0.3048, "feet"},
                                       {0.0254 / 0.45, "the CMU database's unit"}}};
 
-bool contains_any(std::string_view name, std::span<const std::string_view> parts) {
-  std::string lowered(name);
-  std::transform(lowered.begin(), lowered.end(), lowered.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](std::string_view part) { return lowered.find(part) != std::string::npos; });
-}
-
 struct Mean {
   Vec3 sum{0.0};
   std::size_t count = 0;
@@ -57,15 +49,24 @@ void check_options(const MotionFileOptions& options) {
   }
 }
 
-std::optional<char> guess_up(std::span<const std::string> names, std::span<const Vec3> poses) {
+BodyEnd body_end(std::string_view name) {
   constexpr std::array<std::string_view, 3> high{"head", "neck", "sho"};
   constexpr std::array<std::string_view, 4> low{"foot", "ankle", "rank", "toe"};  // RANK: right ankle in marker sets
+  std::string lowered(name);
+  std::transform(lowered.begin(), lowered.end(), lowered.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const auto is_part = [&](std::string_view part) { return lowered.find(part) != std::string::npos; };
+  if (std::any_of(high.begin(), high.end(), is_part)) return BodyEnd::high;
+  return std::any_of(low.begin(), low.end(), is_part) ? BodyEnd::low : BodyEnd::neither;
+}
+
+std::optional<char> guess_up(std::span<const std::string> names, std::span<const Vec3> poses) {
   Mean upper, lower;
   for (std::size_t joint = 0; joint < names.size(); ++joint) {
-    const bool is_high = contains_any(names[joint], high);
-    const bool is_low = !is_high && contains_any(names[joint], low);
-    if (!is_high && !is_low) continue;
-    for (std::size_t i = joint; i < poses.size(); i += names.size()) (is_high ? upper : lower).add(poses[i]);
+    const BodyEnd end = body_end(names[joint]);
+    if (end == BodyEnd::neither) continue;
+    Mean& mean = end == BodyEnd::high ? upper : lower;
+    for (std::size_t i = joint; i < poses.size(); i += names.size()) mean.add(poses[i]);
   }
   if (upper.count == 0 || lower.count == 0) return std::nullopt;
   const Vec3 rise = upper.value() - lower.value();

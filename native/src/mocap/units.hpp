@@ -19,6 +19,10 @@ void check_options(const MotionFileOptions& options);
 /// feet or toes, on the mean over poses; empty when names or numbers do not tell. `poses` holds whole poses.
 [[nodiscard]] std::optional<char> guess_up(std::span<const std::string> names, std::span<const Vec3> poses);
 
+/// Which end of a standing body a point's name speaks of. Names are compared in lower case.
+enum class BodyEnd { neither, high, low };
+[[nodiscard]] BodyEnd body_end(std::string_view name);
+
 struct Unit {
   double metres;
   std::string_view name;
