@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "array_checks.hpp"
+#include "module.hpp"
+#include "reachcast/corpus/corpus.hpp"
+#include "reachcast/motion/encode.hpp"
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace {
+
+using reachcast::Corpus;
+using reachcast::MotionCode;
+using reachcast::MotionSummary;
+using reachcast::Reach;
+using reachcast::Subject;
+using reachcast::bindings::numbers_array;
+using reachcast::bindings::vec3_array;
+using ReleaseGil = py::call_guard<py::gil_scoped_release>;
+
+/// Origins come from file names, which may hold any bytes.
+py::str text(const std::string& bytes) {
+  PyObject* const decoded = PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()), "replace");
+  if (!decoded) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(decoded);
+}
+
+/// The reaches and, if wanted, their mirror images, encoded and stored in one transaction.
+std::vector<std::int64_t> add_reaches(Corpus& corpus, const std::vector<Reach>& reaches, bool mirror) {
+  std::vector<MotionCode> codes;
+  codes.reserve(reaches.size() * (mirror ? 2 : 1));
+  for (const Reach& reach : reaches) {
+    codes.push_back(reachcast::encode_reach(reach));
+    if (!mirror) continue;
+    codes.push_back(reachcast::encode_reach(reachcast::mirrored(reach)));
+    codes.back().is_mirrored = true;
+  }
+  return corpus.add(codes);
+}
+
+std::vector<MotionCode> load(const Corpus& corpus, const std::vector<std::int64_t>& ids) {
+  std::vector<MotionCode> codes;
+  codes.reserve(ids.size());
+  for (reachcast::StoredMotion& motion : corpus.load(ids)) codes.push_back(std::move(motion.code));
+  return codes;
+}
+
+/// The fields that MotionCode and MotionSummary share.
+template <typename Motion>
+void bind_motion_fields(py::class_<Motion>& motion) {
+  motion
+      .def_property_readonly(
+          "subject", [](const Motion& self) { return self.subject; }, "A copy.")
+      .def_property_readonly(
+          "phase", [](const Motion& self) { return std::string(reachcast::phase_name(self.phase)); },
+          "\"transfer\", \"return\", \"reach\" or \"retrieve\".")
+      .def_property_readonly(
+          "origin", [](const Motion& self) { return text(self.origin); }, "File and frames.")
+      .def_readonly("mirrored", &Motion::is_mirrored, "True for the mirror image of the reach named by origin.")
+      .def_readonly("duration", &Motion::duration_s, "Seconds.")
+      .def_property_readonly(
+          "home", [](const Motion& self) { return vec3_array(self.home); },
+          "(3,) hold point at the start, body frame, metres; a copy.")
+      .def_property_readonly(
+          "target", [](const Motion& self) { return vec3_array(self.target); },
+          "(3,) hold point at the end, body frame, metres; a copy.")
+      .def_readonly("grip_distance", &Motion::grip_distance_m, "Metres between the grips at the start.");
+}
+
+std::string fields_text(const std::string& origin, reachcast::Phase phase, double duration_s, bool is_mirrored) {
+  char duration[32];
+  std::snprintf(duration, sizeof duration, "%.2f s", duration_s);
+  return "'" + origin + "', " + std::string(reachcast::phase_name(phase)) + ", " + duration +
+         (is_mirrored ? ", mirrored>" : ">");
+}
+
+std::string corpus_text(const Corpus& corpus) {
+  const std::string start = "<Corpus '" + corpus.path().string() + "', ";
+  if (!corpus.is_open()) return start + "closed>";
+  const std::string kind = corpus.meta()["kind"];
+  return start + std::to_string(corpus.size()) + " motions" + (kind.empty() ? "" : ", " + kind) +
+         (corpus.is_writable() ? ", writable>" : ">");
+}
+
+void bind_motions(py::module_& m) {
+  py::class_<MotionCode> code(m, "MotionCode", "What the corpus keeps of one reach: numbers that can be averaged.");
+  bind_motion_fields(code);
+  code.def_property_readonly(
+          "coefficients", [](const MotionCode& self) { return numbers_array(self.coefficients); },
+          "(n,) spline coefficients; a copy.")
+      .def("__repr__", [](const MotionCode& self) {
+        return text("<MotionCode " + fields_text(self.origin, self.phase, self.duration_s, self.is_mirrored));
+      });
+  py::class_<MotionSummary> summary(m, "MotionSummary", "A motion in a corpus, without its coefficients.");
+  bind_motion_fields(summary);
+  summary.def_readonly("id", &MotionSummary::id)
+      .def_readonly("subject_id", &MotionSummary::subject_id, "Equal for motions of the same subject values.")
+      .def("__repr__", [](const MotionSummary& self) {
+        return text("<MotionSummary " + std::to_string(self.id) + ": " +
+                    fields_text(self.origin, self.phase, self.duration_s, self.is_mirrored));
+      });
+}
+
+void bind_opening(py::class_<Corpus>& corpus) {
+  corpus
+      .def_static(
+          "create",
+          [](const std::filesystem::path& path) { return Corpus::create(path, "reachcast " REACHCAST_VERSION); },
+          "path"_a, ReleaseGil(), "A new, empty corpus. ValueError if something is at path already.")
+      .def_static("open", &Corpus::open, "path"_a, ReleaseGil(),
+                  "Read-only. ValueError for a file that is missing, empty, not a corpus or of a newer schema; "
+                  "RuntimeError for a damaged file.")
+      .def_static("open_for_writing", &Corpus::open_for_writing, "path"_a, ReleaseGil(),
+                  "Reads and adds; also repairs what a crashed writer left half done.")
+      .def("close", &Corpus::close, ReleaseGil(), "Releases the file; later calls raise ValueError.")
+      .def("__enter__", [](py::object self) { return self; })
+      .def("__exit__", [](Corpus& self, const py::args&) { self.close(); })
+      .def_property_readonly("path", &Corpus::path)
+      .def("__repr__", [](const Corpus& self) {
+        std::string description;
+        {
+          const py::gil_scoped_release release;
+          description = corpus_text(self);
+        }
+        return text(description);
+      });
+}
+
+void bind_contents(py::class_<Corpus>& corpus) {
+  corpus.def("__len__", &Corpus::size, ReleaseGil())
+      .def(
+          "__bool__", [](const Corpus&) { return true; }, "True, also when empty.")
+      .def(
+          "add",
+          [](Corpus& self, const MotionCode& code) {
+            return self.add({&code, 1}).front();
+          },
+          "code"_a, ReleaseGil(), "Stores one code and returns its id.")
+      .def(
+          "add", [](Corpus& self, const std::vector<MotionCode>& codes) { return self.add(codes); }, "codes"_a,
+          ReleaseGil(),
+          "Stores all of them or, on an error, none; returns one id per code. What is there already "
+          "(same origin, mirrored and phase) stays as it is and yields its id.")
+      .def("add_reaches", &add_reaches, "reaches"_a, py::kw_only(), "mirror"_a = true, ReleaseGil(),
+           "Encodes and stores reaches and, with mirror, their mirror images after each; returns the ids.")
+      .def("motions", &Corpus::summaries, ReleaseGil(), "All motions in id order: list of MotionSummary.")
+      .def("load", &load, "ids"_a, ReleaseGil(), "The MotionCodes of these ids, in their order.")
+      .def_property_readonly("meta", py::cpp_function(&Corpus::meta, ReleaseGil()),
+                             "dict of str: schema_version, created_by, kind, description, code_length and your own; "
+                             "a copy, see set_meta.")
+      .def("set_meta", &Corpus::set_meta, "key"_a, "value"_a, ReleaseGil());
+}
+
+}  // namespace
+
+void bind_corpus(py::module_& m) {
+  bind_motions(m);
+  py::class_<Corpus> corpus(m, "Corpus",
+                            "Many motions in one SQLite file. Any number of programs may read while one writes. "
+                            "Open it after a fork, not before.");
+  bind_opening(corpus);
+  bind_contents(corpus);
+}
