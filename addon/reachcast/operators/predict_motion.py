@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+from __future__ import annotations
+
+import bpy
+
+from ..properties import core_sex, missing
+from ..scene.predict_action import PredictionResult, predict_motion
+
+
+class REACHCAST_OT_predict_motion(bpy.types.Operator):
+    bl_idname = "reachcast.predict_motion"
+    bl_label = "Predict Motion"
+    bl_description = "Write a new Action on the rig, from the current frame, in which it carries the box to the shelf"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        reason = missing(context.scene.reachcast)
+        if reason:
+            cls.poll_message_set(reason)
+        return reason is None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        settings = context.scene.reachcast
+        try:
+            result = predict_motion(
+                settings.rig, settings.shelf, corpus=settings.corpus, home=settings.home, box=settings.box,
+                stature=settings.stature or None, sex=core_sex(settings.sex), bone_map=settings.bone_map or None,
+                scene=context.scene)
+        except ValueError as error:
+            context.window_manager.reachcast_problem = str(error)
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        context.window_manager.reachcast_problem = ""
+        self.report({"INFO"}, summary(result))
+        return {"FINISHED"}
+
+
+def summary(result: PredictionResult) -> str:
+    where = "outside the recorded targets" if result.outside_data else "within the recorded targets"
+    return (f"'{result.action}': frames {result.first_frame} to {result.frames['end']}, lands within "
+            f"{result.errors['landing'] * 1000:.2f} mm, from {len(result.neighbours)} motions, {where}")

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sidebar tab "Reachcast": the task as a sentence, what is missing, the button, and what came of it."""
+from __future__ import annotations
+
+import textwrap
+
+import bpy
+
+from .operators.predict_motion import REACHCAST_OT_predict_motion
+from .properties import needs
+from .scene.predict_action import EVENTS
+
+_LABELS = 0.3  #: part of the panel's width that the words take
+
+
+class _Tab:
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Reachcast"
+
+
+class REACHCAST_PT_lift(_Tab, bpy.types.Panel):
+    bl_label = "Lift to Shelf"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = context.scene.reachcast
+        column = self.layout.column(align=True)
+        for words, name in (("Rig", "rig"), ("carries", "box"), ("from", "home"), ("to", "shelf"),
+                            ("as in", "corpus")):
+            _sentence_part(column, settings, words, name)
+        blocking = [need for need in needs(settings) if need.reason]
+        for need in blocking:
+            _lines(self.layout, context, f"{need.name}: {need.reason}", "ERROR")
+        row = self.layout.row()
+        row.scale_y = 1.4
+        row.operator(REACHCAST_OT_predict_motion.bl_idname, icon="ACTION")
+        problem = context.window_manager.reachcast_problem
+        if problem:
+            _lines(self.layout, context, problem, "CANCEL")
+        elif not blocking:
+            _lines(self.layout, context, f"Ready: starts at frame {context.scene.frame_current}.", "CHECKMARK")
+
+
+class REACHCAST_PT_subject(_Tab, bpy.types.Panel):
+    bl_label = "Person"
+    bl_parent_id = "REACHCAST_PT_lift"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = context.scene.reachcast
+        column = self.layout.column(align=True)
+        _sentence_part(column, settings, "Stature", "stature")
+        if settings.stature == 0.0:
+            _words(column, "", "0: the rig's own height")
+        _sentence_part(column, settings, "Sex", "sex")
+        _sentence_part(column, settings, "Bones", "bone_map")
+
+
+class REACHCAST_PT_result(_Tab, bpy.types.Panel):
+    bl_label = "Last Result"
+    bl_parent_id = "REACHCAST_PT_lift"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return _predicted_action(context) is not None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        action = _predicted_action(context)
+        if action is None:
+            return
+        column = self.layout.column(align=True)
+        _words(column, "Action", action.name)
+        for event in EVENTS:
+            _words(column, event.replace("_", " ").capitalize(), f"frame {action[event]}")
+        _words(column, "Landing", f"{action['reachcast_landing_error_m'] * 1000.0:.2f} mm off")
+        _words(column, "Grip", f"{action['reachcast_grip_error_m'] * 1000.0:.2f} mm off")
+        outside = action["reachcast_outside_data"]
+        _lines(self.layout, context, "The target lies outside the recorded ones: take it with care." if outside
+               else "The target lies within the recorded ones.", "ERROR" if outside else "CHECKMARK")
+        _lines(self.layout, context, f"From motions {action['reachcast_neighbours']}", "COMMUNITY")
+        if action["reachcast_corrections"]:
+            _lines(self.layout, context, f"Corrected: {action['reachcast_corrections']}", "INFO")
+
+
+def _predicted_action(context: bpy.types.Context) -> bpy.types.Action | None:
+    rig = context.scene.reachcast.rig
+    action = rig.animation_data.action if rig and rig.animation_data else None
+    return action if action is not None and "reachcast_landing_error_m" in action else None
+
+
+def _sentence_part(column: bpy.types.UILayout, settings: bpy.types.PropertyGroup, words: str, name: str) -> None:
+    split = column.split(factor=_LABELS)
+    split.label(text=words)
+    split.prop(settings, name, text="")
+
+
+def _words(column: bpy.types.UILayout, left: str, right: str) -> None:
+    split = column.split(factor=_LABELS)
+    split.label(text=left)
+    split.label(text=right)
+
+
+def _lines(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str) -> None:
+    """A sentence over as many lines as the panel's width needs, so that no word is cut off."""
+    scale = context.preferences.system.ui_scale
+    letters = max(16, int((context.region.width / scale - 60.0) / 6.3))
+    column = layout.column(align=True)
+    column.scale_y = 0.8
+    for number, line in enumerate(textwrap.wrap(text, letters) or [""]):
+        column.label(text=line, icon=icon if number == 0 else "BLANK1")

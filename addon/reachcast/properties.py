@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the panel asks for, kept on the Scene, and what of it is still missing."""
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+
+import bpy
+
+from . import native
+from .rigs.bone_map import detect
+from .scene.predict_action import default_corpus
+
+#: The sentence of the last prediction that failed. On the WindowManager: neither saved nor undone.
+PROBLEM = bpy.props.StringProperty(name="Problem", options={"HIDDEN", "SKIP_SAVE"})
+
+
+def _is_armature(_settings: bpy.types.PropertyGroup, item: bpy.types.Object) -> bool:
+    return item.type == "ARMATURE"
+
+
+def _is_place(settings: bpy.types.PropertyGroup, item: bpy.types.Object) -> bool:
+    return item.type == "EMPTY"
+
+
+def _is_mesh(_settings: bpy.types.PropertyGroup, item: bpy.types.Object) -> bool:
+    return item.type == "MESH"
+
+
+class ReachcastSettings(bpy.types.PropertyGroup):
+    rig: bpy.props.PointerProperty(
+        name="Rig", type=bpy.types.Object, poll=_is_armature, description="The armature that carries the box")
+    box: bpy.props.PointerProperty(
+        name="Box", type=bpy.types.Object, poll=_is_mesh,
+        description="The mesh that is carried; its hands hold it left and right, along its own x. "
+                    "Without one the rig moves an average box that is not shown")
+    home: bpy.props.PointerProperty(
+        name="Home", type=bpy.types.Object, poll=_is_place,
+        description="The Empty where the middle of the box's base starts. "
+                    "Without one it starts where the box stands, or in front of the body at waist height")
+    shelf: bpy.props.PointerProperty(
+        name="Shelf", type=bpy.types.Object, poll=_is_place,
+        description="The Empty where the middle of the box's base ends")
+    corpus: bpy.props.StringProperty(
+        name="Corpus", subtype="FILE_PATH",
+        description="The file of recorded motions to learn from; empty takes the one that ships with the add-on")
+    bone_map: bpy.props.StringProperty(
+        name="Bone Map", subtype="FILE_PATH",
+        description="A JSON file that says which bone is which; empty recognises the mannequin and Rigify's metarig")
+    stature: bpy.props.FloatProperty(
+        name="Stature", min=0.0, max=2.6, default=0.0, subtype="DISTANCE", unit="LENGTH",
+        description="Height of the person to move like; 0 takes the rig's own")
+    sex: bpy.props.EnumProperty(
+        name="Sex", default="ANY", description="Whose motions count as similar",
+        items=(("ANY", "Any", "Do not tell"), ("FEMALE", "Female", ""), ("MALE", "Male", "")))
+
+
+def core_sex(identifier: str) -> str | None:
+    """The native module's word for an item of the sex property."""
+    return None if identifier == "ANY" else identifier.lower()
+
+
+@dataclass(frozen=True)
+class Need:
+    """One thing a prediction needs. `reason` is None when it is there."""
+
+    name: str
+    reason: str | None
+
+
+def needs(settings: ReachcastSettings) -> list[Need]:
+    """What a prediction needs, in the order of the panel. Cheap enough for every redraw."""
+    return [
+        Need("Native module", native.reason()),
+        Need("Rig", _rig_reason(settings)),
+        Need("Shelf", None if settings.shelf else "Choose the Empty on the shelf."),
+        Need("Corpus", _corpus_reason(settings.corpus)),
+    ]
+
+
+def missing(settings: ReachcastSettings) -> str | None:
+    """The first reason why Predict Motion cannot run, or None."""
+    return next((need.reason for need in needs(settings) if need.reason), None)
+
+
+def _rig_reason(settings: ReachcastSettings) -> str | None:
+    rig = settings.rig
+    if rig is None:
+        return "Choose the armature that carries the box."
+    if rig.mode == "EDIT":
+        return f"Leave Edit Mode on '{rig.name}' first."
+    if settings.bone_map:
+        path = bpy.path.abspath(settings.bone_map)
+        return None if os.path.isfile(path) else f"The bone map {path} does not exist."
+    try:
+        detect([bone.name for bone in rig.data.bones], rig.name)
+    except ValueError as error:
+        return f"{error}."
+    return None
+
+
+def _corpus_reason(path: str) -> str | None:
+    if not path:
+        return None if default_corpus() else "Choose a corpus: none ships with this build."
+    full = bpy.path.abspath(path)
+    return None if os.path.isfile(full) else f"The corpus {full} does not exist."

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the add-on adds to Blender, in one order, and takes away in the reverse."""
+from __future__ import annotations
+
+import bpy
+
+from . import panels, properties
+from .operators import add_mannequin, predict_motion
+
+CLASSES: tuple[type, ...] = (
+    properties.ReachcastSettings,
+    predict_motion.REACHCAST_OT_predict_motion,
+    add_mannequin.REACHCAST_OT_add_mannequin,
+    panels.REACHCAST_PT_lift,
+    panels.REACHCAST_PT_subject,
+    panels.REACHCAST_PT_result,
+)
+
+
+def register() -> None:
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Scene.reachcast = bpy.props.PointerProperty(type=properties.ReachcastSettings)
+    bpy.types.WindowManager.reachcast_problem = properties.PROBLEM
+    bpy.types.VIEW3D_MT_armature_add.append(add_mannequin.draw_menu_entry)
+
+
+def unregister() -> None:
+    bpy.types.VIEW3D_MT_armature_add.remove(add_mannequin.draw_menu_entry)
+    del bpy.types.WindowManager.reachcast_problem
+    del bpy.types.Scene.reachcast
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The only code that reads and writes Blender's data.
+
+transforms.py      world transforms of objects, checked
+read_rig.py        armature object -> rigs.skeleton.Skeleton
+read_task.py       shelf, home and box -> home, target, object in the body frame
+action_writer.py   the one file that writes F-curves
+write_motion.py    rig pose and box places -> Actions
+predict_action.py  predict_motion(): reads, asks the native module, writes
+measure.py         what the evaluated scene really shows over the frames
+"""

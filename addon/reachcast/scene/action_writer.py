@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The one file that writes F-curves: numbers over frames become a new Action, in bulk, and nothing is overwritten.
+
+It is also the only file that knows that an Action has slots and channel bags from Blender 4.4 on.
+"""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..rigs.rotations import Array
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One animated property. `values` is (frames, width); keys stand at `first_frame` + 0, 1, 2, ..."""
+
+    data_path: str
+    values: Array
+    group: str
+
+
+def write_action(owner: bpy.types.Object, name: str, channels: Sequence[Channel], first_frame: int) -> bpy.types.Action:
+    """A new Action with these channels, made the active one of `owner`. The Action it replaces is kept in the file."""
+    action = bpy.data.actions.new(name)
+    if owner.animation_data is None:
+        owner.animation_data_create()
+    replaced = owner.animation_data.action
+    owner.animation_data.action = action
+    if replaced is not None and replaced.users == 0:
+        replaced.use_fake_user = True
+    curves, group_of = _curve_makers(owner, action)
+    interpolation, handle = _enum_value("interpolation", "LINEAR"), _enum_value("handle_left_type", "AUTO_CLAMPED")
+    for channel in channels:
+        for index, values in enumerate(np.atleast_2d(channel.values.T)):
+            curve = curves.new(channel.data_path, index=index)
+            curve.group = group_of(channel.group)
+            _fill(curve, first_frame, values, interpolation, handle)
+    return action
+
+
+def refuse_unwritable(owner: bpy.types.Object) -> None:
+    """ValueError when a new Action on `owner` would not be possible, or would not be what the viewport shows."""
+    if owner.library is not None and owner.override_library is None:
+        raise ValueError(f"Object '{owner.name}' is linked from another file; make a library override of it first")
+    animation = owner.animation_data
+    if animation is None:
+        return
+    if animation.use_tweak_mode:
+        raise ValueError(f"Object '{owner.name}' is being tweaked in the NLA editor; leave tweak mode first (Tab)")
+    if animation.action_influence < 1.0 or animation.action_blend_type != "REPLACE":
+        raise ValueError(f"Object '{owner.name}' blends its Action ({animation.action_blend_type.lower()}, influence "
+                         f"{animation.action_influence:g}); it must replace with influence 1")
+
+
+def _fill(curve: bpy.types.FCurve, first_frame: int, values: Array, interpolation: int, handle: int) -> None:
+    count = len(values)
+    points = curve.keyframe_points
+    points.add(count)
+    places = np.empty(2 * count, dtype=np.float32)
+    places[0::2] = first_frame + np.arange(count)
+    places[1::2] = values
+    points.foreach_set("co", places)
+    points.foreach_set("interpolation", np.full(count, interpolation, dtype=np.int32))
+    points.foreach_set("handle_left_type", np.full(count, handle, dtype=np.int32))
+    points.foreach_set("handle_right_type", np.full(count, handle, dtype=np.int32))
+    curve.update()
+
+
+def _curve_makers(owner: bpy.types.Object, action: bpy.types.Action):  # type: ignore[no-untyped-def]
+    """The collection that makes F-curves for `owner`, and a function from a group's name to the group."""
+    bag = action
+    if hasattr(action, "slots"):  # Blender 4.4 and later
+        slot = action.slots.new(id_type="OBJECT", name=owner.name)
+        owner.animation_data.action_slot = slot
+        strip = action.layers.new("Layer").strips.new(type="KEYFRAME")
+        bag = strip.channelbag(slot, ensure=True)
+
+    def group_of(name: str) -> bpy.types.ActionGroup:
+        return bag.groups.get(name) or bag.groups.new(name)
+
+    return bag.fcurves, group_of
+
+
+def _enum_value(attribute: str, identifier: str) -> int:
+    return bpy.types.Keyframe.bl_rna.properties[attribute].enum_items[identifier].value

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`predict_motion`: a rig and a shelf become an Action. The plain function behind the button, for scripts too."""
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType, ModuleType
+from typing import Any
+
+import bpy
+import numpy as np
+
+from .. import native
+from ..rigs.bone_map import BoneMap
+from ..rigs.joints import INDEX, JOINTS
+from ..rigs.retarget import EXACT_JOINTS, RigPose, posed_joints, retarget
+from ..rigs.rotations import Array, axis_rotation
+from ..rigs.skeleton import Skeleton
+from .action_writer import refuse_unwritable
+from .read_rig import read_rig
+from .read_task import Lift, read_lift
+from .transforms import evaluate_transforms
+from .write_motion import box_world_places, write_box_action, write_rig_action
+
+EVENTS = ("grasp", "lift_off", "placed", "release", "end")
+DATA_FOLDER = Path(__file__).parents[1] / "data"
+#: How far the posed rig may be from the predicted joints. Single precision keys are a hundred times finer.
+MAX_MISFIT_M = 1e-3
+
+
+@dataclass(frozen=True)
+class PredictionResult:
+    """What was written and what it rests on. Names, not references: undo frees datablocks."""
+
+    rig: str
+    action: str
+    box_action: str | None
+    frames: Mapping[str, int]                             #: scene frame of each of EVENTS
+    first_frame: int
+    neighbours: tuple[tuple[Any, float, Mapping[str, float]], ...]
+    outside_data: bool
+    corrections: tuple[str, ...]
+    errors: Mapping[str, float]                           #: metres: landing, grip (while held), pose (rig to prediction)
+
+
+def default_corpus() -> Path | None:
+    """The corpus that ships with the add-on, when there is one."""
+    return next((path for path in sorted(DATA_FOLDER.glob("*")) if path.suffix in {".rcdb", ".sqlite", ".db"}), None)
+
+
+def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: object = None,
+                   home: bpy.types.Object | None = None, box: bpy.types.Object | None = None,
+                   stature: float | None = None, sex: str | None = None, age: float | None = None,
+                   mass: float | None = None, bone_map: BoneMap | str | Path | None = None,
+                   start_frame: int | None = None, scene: bpy.types.Scene | None = None,
+                   **options: object) -> PredictionResult:
+    """Predicts how `rig` carries `box` to `shelf` and writes a new Action on the rig, and one on the box if given.
+
+    corpus: a path or an opened reachcast_core.Corpus; None takes the one that ships. stature in metres (None: the
+    rig's own height), age in years, mass in kg. start_frame: None starts at the scene's current frame. Other options
+    go to reachcast_core.predict. Everything is read and checked first: on ValueError nothing has been written.
+    """
+    scene = scene or bpy.context.scene
+    core = native.core()
+    evaluate_transforms()
+    skeleton = read_rig(rig, bone_map)
+    lift = read_lift(skeleton, shelf, home, box)
+    for owner in filter(None, (rig, box)):
+        refuse_unwritable(owner)
+    motion = _predict(core, skeleton, lift, _corpus(core, corpus), _subject(core, skeleton, stature, sex, age, mass),
+                      {"frame_rate": scene.render.fps / scene.render.fps_base, **options})
+    joints = skeleton.to_world(np.asarray(motion.positions, float))
+    pose = retarget(skeleton, joints)
+    errors = _errors(skeleton, lift, motion, pose, joints)
+    first = scene.frame_current if start_frame is None else int(start_frame)
+    name = f"{rig.name} to {shelf.name}"
+    action = write_rig_action(rig, skeleton, pose, name, first)
+    box_action = _write_box(box, skeleton, lift, motion, f"{box.name} to {shelf.name}", first) if box else None
+    result = PredictionResult(
+        rig.name, action.name, box_action.name if box_action else None,
+        MappingProxyType({event: first + int(motion.events[event]) for event in EVENTS}), first,
+        tuple((neighbour[0], float(neighbour[1]), dict(neighbour[2])) for neighbour in motion.neighbours),
+        bool(motion.outside_data), tuple(str(correction) for correction in motion.corrections),
+        MappingProxyType(errors))
+    _label(action, result)
+    return result
+
+
+def _corpus(core: ModuleType, corpus: object) -> object:
+    if corpus is None or corpus == "":
+        corpus = default_corpus()
+        if corpus is None:
+            raise ValueError("No corpus is given and none ships with this build of the add-on; choose a corpus file")
+    if isinstance(corpus, (str, os.PathLike)):
+        return core.Corpus.open(bpy.path.abspath(os.fspath(corpus)))
+    return corpus
+
+
+def _subject(core: ModuleType, skeleton: Skeleton, stature: float | None, sex: str | None, age: float | None,
+             mass: float | None) -> object:
+    return core.Subject(skeleton.height if not stature else float(stature), sex=sex, age=age, mass=mass)
+
+
+def _predict(core: ModuleType, skeleton: Skeleton, lift: Lift, corpus: object, subject: object,
+             options: Mapping[str, object]) -> Any:
+    if tuple(core.JOINTS) != JOINTS:
+        raise ValueError("reachcast_core names other joints than this add-on; build it from the same version")
+    box = lift.box
+    task = core.Task(lift.home, lift.target,
+                     core.Box(box.width, box.depth, box.height, box.handle_height, box.mass),
+                     home_yaw=lift.home_yaw, target_yaw=lift.target_yaw)
+    body = core.Body.from_posture(skeleton.to_body(skeleton.joints))
+    motion = core.predict(corpus, subject, task, body, **options)
+    if missing := [event for event in EVENTS if event not in motion.events]:
+        raise ValueError(f"The predicted motion lacks the events {', '.join(missing)}")
+    return motion
+
+
+def _errors(skeleton: Skeleton, lift: Lift, motion: Any, pose: RigPose, joints: Array) -> dict[str, float]:
+    """How far the rig's bones, by forward kinematics, are from what was asked; ValueError when they cannot follow."""
+    reached = posed_joints(skeleton, pose)
+    misfit = np.linalg.norm(reached - joints, axis=2)[:, EXACT_JOINTS]
+    if (worst := float(misfit.max())) > MAX_MISFIT_M:
+        frame, joint = np.unravel_index(int(misfit.argmax()), misfit.shape)
+        raise ValueError(f"Rig '{skeleton.name}' cannot follow the predicted motion: {JOINTS[EXACT_JOINTS[joint]]} would be "
+                         f"{worst * 1000:.1f} mm off at frame {frame}; the limit is {MAX_MISFIT_M * 1000:g} mm")
+    origins, turns = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
+    held = slice(int(motion.events["grasp"]), int(motion.events["release"]) + 1)
+    grip = 0.0
+    for word, side in (("left", -0.5), ("right", 0.5)):
+        handle = origins + turns @ np.array([side * lift.box.width, 0.0, lift.box.handle_height])
+        grip = max(grip, float(np.linalg.norm(reached[:, INDEX[f"{word}_grip"]] - handle, axis=1)[held].max()))
+    landed = origins[int(motion.events["release"])]
+    return {"landing": float(np.linalg.norm(landed - skeleton.to_world(lift.target))), "grip": grip, "pose": worst}
+
+
+def _write_box(box: bpy.types.Object, skeleton: Skeleton, lift: Lift, motion: Any, name: str,
+               first: int) -> bpy.types.Action:
+    origins, turns = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
+    if lift.half_turn:
+        turns = turns @ axis_rotation(np.array([0.0, 0.0, 1.0]), np.pi)
+    return write_box_action(box, origins + turns @ np.array(lift.box.origin_offset), turns, name, first)
+
+
+def _label(action: bpy.types.Action, result: PredictionResult) -> None:
+    """The result as custom properties: it is saved with the file and undone with the Action."""
+    for event in EVENTS:
+        action[event] = result.frames[event]
+    action["reachcast_first_frame"] = result.first_frame
+    action["reachcast_outside_data"] = result.outside_data
+    action["reachcast_neighbours"] = ", ".join(str(neighbour[0]) for neighbour in result.neighbours)
+    action["reachcast_corrections"] = "; ".join(result.corrections)
+    for name, value in result.errors.items():
+        action[f"reachcast_{name}_error_m"] = value

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An armature object as a skeleton in world metres, or one sentence about what on it cannot be animated."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from ..rigs.bone_map import BoneMap, detect, load_bone_map
+from ..rigs.skeleton import Bones, Skeleton, build_skeleton
+from .transforms import Placement, even_placement
+
+
+def read_rig(rig: bpy.types.Object, bone_map: BoneMap | str | Path | None = None) -> Skeleton:
+    """The rest skeleton of `rig`. `bone_map`: a map, a JSON file's path, or None to recognise the bones' names."""
+    if not isinstance(rig, bpy.types.Object) or rig.type != "ARMATURE":
+        raise ValueError(f"The rig must be an armature object, not {_described(rig)}")
+    if rig.mode == "EDIT":
+        raise ValueError(f"Rig '{rig.name}' is in Edit Mode; leave it first (Tab)")
+    if rig.data.pose_position == "REST":
+        raise ValueError(f"Rig '{rig.name}' is shown in its rest position; set its Skeleton to Pose Position")
+    names = [bone.name for bone in rig.data.bones]
+    if bone_map is None:
+        bone_map = detect(names, rig.name)
+    elif not isinstance(bone_map, BoneMap):
+        bone_map = load_bone_map(bpy.path.abspath(str(bone_map)))
+    skeleton = build_skeleton(rig.name, _bones(rig, even_placement(rig)), bone_map)
+    _refuse_what_overrides_keys(rig, skeleton)
+    return skeleton
+
+
+def _bones(rig: bpy.types.Object, place: Placement) -> Bones:
+    bones = _parents_first(list(rig.data.bones))
+    index = {bone.name: number for number, bone in enumerate(bones)}
+    rest = np.array([bone.matrix_local for bone in bones], dtype=float).reshape(-1, 4, 4)
+    tails = np.array([bone.tail_local for bone in bones], dtype=float).reshape(-1, 3)
+    left, _, right = np.linalg.svd(rest[:, :3, :3])  # single precision to orthonormal in double
+    return Bones(
+        names=tuple(index), parents=tuple(index[bone.parent.name] if bone.parent else -1 for bone in bones),
+        heads=place.to_world(rest[:, :3, 3]), tails=place.to_world(tails), rotations=place.rotation @ (left @ right),
+        scale=float(np.mean(place.scale)))
+
+
+def _parents_first(bones: list[bpy.types.Bone]) -> list[bpy.types.Bone]:
+    ordered: list[bpy.types.Bone] = []
+    pending = [bone for bone in bones if bone.parent is None]
+    while pending:
+        bone = pending.pop()
+        ordered.append(bone)
+        pending.extend(bone.children)
+    return ordered
+
+
+def _refuse_what_overrides_keys(rig: bpy.types.Object, skeleton: Skeleton) -> None:
+    names = [skeleton.bones.names[bone] for bone in skeleton.keyed]
+    held = [name for name in names if any(not constraint.mute for constraint in rig.pose.bones[name].constraints)]
+    if held:
+        raise ValueError(f"Rig '{rig.name}' has constraints on bones that must move freely: {', '.join(held)}; "
+                         f"mute or remove them")
+    loose = [name for name in names if not rig.data.bones[name].use_inherit_rotation]
+    if loose:
+        raise ValueError(f"Rig '{rig.name}' has bones that do not inherit rotation: {', '.join(loose)}; "
+                         f"switch Inherit Rotation on")
+    unscaled = [name for name in names if rig.data.bones[name].inherit_scale in {"NONE", "NONE_LEGACY"}]
+    if unscaled:
+        raise ValueError(f"Rig '{rig.name}' has bones that do not inherit scale: {', '.join(unscaled)}; "
+                         f"set Inherit Scale to Full")
+    pelvis = rig.data.bones[skeleton.bones.names[skeleton.segments["pelvis"]]]
+    if pelvis.use_connect and pelvis.parent is not None:
+        raise ValueError(f"Rig '{rig.name}': pelvis bone '{pelvis.name}' is connected to '{pelvis.parent.name}' "
+                         f"and cannot move; switch Connected off")
+    if skeleton_drivers := _driven(rig, set(names)):
+        raise ValueError(f"Rig '{rig.name}' has drivers on bones that must move freely: {', '.join(skeleton_drivers)}; "
+                         f"remove them")
+
+
+def _driven(rig: bpy.types.Object, names: set[str]) -> list[str]:
+    if rig.animation_data is None:
+        return []
+    found = set()
+    for curve in rig.animation_data.drivers:
+        if curve.data_path.startswith('pose.bones["') and not curve.mute:
+            bone, _, channel = curve.data_path[len('pose.bones["'):].partition('"].')
+            if bone in names and channel.split("_")[0] in {"location", "rotation", "scale"}:
+                found.add(bone)
+    return sorted(found)
+
+
+def _described(item: object) -> str:
+    if item is None:
+        return "nothing"
+    return f"{item.type.lower()} '{item.name}'" if isinstance(item, bpy.types.Object) else repr(item)

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is to be carried where: the shelf, the home and the box of a scene, in a rig's body frame."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..rigs.rotations import Array
+from ..rigs.skeleton import Skeleton
+from .transforms import placement
+
+HANDLE_HEIGHT = "reachcast_handle_height"   #: custom property of a box, metres above its base
+BOX_MASS = "reachcast_mass"                 #: custom property of a box, kilograms
+MAX_TILT_DEG = 5.0
+DEFAULT_MASS = 5.0
+_DEFAULT_SIZE = (0.35, 0.30, 0.25)
+_MOST_METRES = 3.0                          #: no pair of hands holds a larger box
+
+
+@dataclass(frozen=True)
+class BoxShape:
+    """A box in metres: handles at +-width/2 along its own x, `handle_height` above the centre of its base."""
+
+    width: float
+    depth: float
+    height: float
+    handle_height: float
+    mass: float
+    origin_offset: tuple[float, float, float] = (0.0, 0.0, 0.0)  #: from the centre of the base to the object's origin
+
+
+@dataclass(frozen=True)
+class Lift:
+    """A task in the body frame. Yaws are in (-pi/2, pi/2]: a box looks the same to two hands after half a turn."""
+
+    home: Array
+    target: Array
+    home_yaw: float
+    target_yaw: float
+    box: BoxShape
+    half_turn: bool  #: the mesh stands half a turn away from the box that the hands see
+
+
+def read_lift(skeleton: Skeleton, shelf: bpy.types.Object, home: bpy.types.Object | None,
+              box: bpy.types.Object | None) -> Lift:
+    """The task: the box's base goes from `home` (else from where the box stands, else from the front of the body at
+    waist height) to `shelf`. ValueError names the object, its value and the limit."""
+    if not isinstance(shelf, bpy.types.Object):
+        raise ValueError("The shelf must be an object (an Empty where the box is to end), not nothing")
+    shape = read_box(box) if box is not None else _default_box()
+    target = placement(shelf)
+    target_yaw, _ = _half_turns(_yaw(skeleton, target.rotation))
+    if home is not None:
+        start = placement(home)
+        place, rotation = start.origin, start.rotation
+    elif box is not None:
+        start = placement(box)
+        rotation = start.rotation
+        place = start.origin - rotation @ np.array(shape.origin_offset)
+    else:
+        return Lift(_in_front(skeleton, shape), skeleton.to_body(target.origin), 0.0, target_yaw, shape, False)
+    home_yaw, half_turn = _half_turns(_yaw(skeleton, rotation))
+    return Lift(skeleton.to_body(place), skeleton.to_body(target.origin), home_yaw, target_yaw, shape, half_turn)
+
+
+def read_box(box: bpy.types.Object) -> BoxShape:
+    """Size and handles of a box mesh from its bounds in its own axes; ValueError when it cannot be carried."""
+    if not isinstance(box, bpy.types.Object) or box.type != "MESH":
+        raise ValueError(f"The box must be a mesh object, not {getattr(box, 'name', box)!r}")
+    place = placement(box)
+    tilt = math.degrees(math.acos(float(np.clip(place.rotation[2, 2], -1.0, 1.0))))
+    if tilt > MAX_TILT_DEG:
+        raise ValueError(f"Box '{box.name}' is tilted by {tilt:.0f} degrees; the limit is {MAX_TILT_DEG:.0f}")
+    corners = np.array(box.bound_box, dtype=float) * place.scale
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    size = high - low
+    for axis, length in zip(("width (x)", "depth (y)", "height (z)"), size):
+        if not 1e-3 <= length <= _MOST_METRES:
+            raise ValueError(f"Box '{box.name}' has a {axis} of {length:g} m; it must be from 0.001 to "
+                             f"{_MOST_METRES:g} m")
+    handle = _number(box, HANDLE_HEIGHT, 0.5 * float(size[2]), 0.0, float(size[2]))
+    mass = _number(box, BOX_MASS, DEFAULT_MASS, 0.0, 200.0)
+    base = np.array([*(0.5 * (low + high))[:2], low[2]])
+    return BoxShape(*(float(length) for length in size), handle, mass, tuple(float(part) for part in -base))
+
+
+def _number(item: bpy.types.Object, name: str, default: float, least: float, most: float) -> float:
+    value = item.get(name, default)
+    if not isinstance(value, (int, float)) or not math.isfinite(value) or not least <= value <= most:
+        raise ValueError(f"Box '{item.name}': its property {name} is {value!r}; it must be from {least:g} to {most:g}")
+    return float(value)
+
+
+def _default_box() -> BoxShape:
+    width, depth, height = _DEFAULT_SIZE
+    return BoxShape(width, depth, height, 0.5 * height, DEFAULT_MASS)
+
+
+def _in_front(skeleton: Skeleton, shape: BoxShape) -> Array:
+    """Faraway 2004, p. 546: "a position in front of the body at waist height"."""
+    waist = skeleton.to_body(skeleton.joint("l5s1"))
+    forward = 0.12 * skeleton.height + 0.5 * shape.depth
+    return np.array([0.0, waist[1] + forward, waist[2] - shape.handle_height])
+
+
+def _yaw(skeleton: Skeleton, rotation: Array) -> float:
+    """Turn about z from the body's x axis to the object's own, seen from above."""
+    x_axis = skeleton.axes @ rotation[:, 0]
+    if math.hypot(x_axis[0], x_axis[1]) < 1e-6:
+        return 0.0
+    return math.atan2(x_axis[1], x_axis[0])
+
+
+def _half_turns(yaw: float) -> tuple[float, bool]:
+    """The same direction of the handles within a quarter turn, and whether half a turn was taken off."""
+    turns = math.ceil((yaw - 1e-9) / math.pi - 0.5)
+    return yaw - turns * math.pi, turns % 2 != 0

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A rig's pose over time, and the box's places, as Actions."""
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from bpy.utils import escape_identifier
+
+from ..rigs.channels import rotation_values
+from ..rigs.retarget import RigPose, local_rotations
+from ..rigs.rotations import Array, from_quaternion
+from ..rigs.skeleton import Skeleton
+from .action_writer import Channel, write_action
+from .transforms import even_placement
+
+_ROTATION_PATHS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
+
+
+def write_rig_action(rig: bpy.types.Object, skeleton: Skeleton, pose: RigPose, name: str,
+                     first_frame: int) -> bpy.types.Action:
+    """A new Action on `rig`: a rotation per keyed bone and frame, the pelvis's place, and one key that holds what must
+    not move (the scale and place of every keyed bone)."""
+    local = local_rotations(skeleton, pose)
+    channels = []
+    for bone in skeleton.keyed:
+        bone_name = skeleton.bones.names[bone]
+        pose_bone = rig.pose.bones[bone_name]
+        path = f'pose.bones["{escape_identifier(bone_name)}"].'
+        mode = pose_bone.rotation_mode
+        if bone == pose.pelvis:
+            channels.append(Channel(path + "location", _pelvis_location(rig, skeleton, pose), bone_name))
+        elif not pose_bone.bone.use_connect:
+            channels.append(Channel(path + "location", np.zeros((1, 3)), bone_name))
+        channels.append(Channel(path + _ROTATION_PATHS.get(mode, "rotation_euler"),
+                                rotation_values(local[bone], mode), bone_name))
+        channels.append(Channel(path + "scale", np.ones((1, 3)), bone_name))
+    return write_action(rig, name, channels, first_frame)
+
+
+def _pelvis_location(rig: bpy.types.Object, skeleton: Skeleton, pose: RigPose) -> Array:
+    """(F, 3) in the axes the bone's location is given in: its own, or its parent's when Local Location is off."""
+    bones, pelvis = skeleton.bones, pose.pelvis
+    place = even_placement(rig)
+    moved = (pose.heads[pelvis] - bones.heads[pelvis]) / bones.scale
+    if rig.data.bones[bones.names[pelvis]].use_local_location:
+        axes = bones.rotations[pelvis]
+    else:
+        parent = bones.parents[pelvis]
+        axes = place.rotation if parent < 0 else bones.rotations[parent]
+    return moved @ axes
+
+
+def write_box_action(box: bpy.types.Object, origins: Array, rotations: Array, name: str,
+                     first_frame: int) -> bpy.types.Action:
+    """A new Action on `box`: its origin (F, 3) and rotation (F, 3, 3) in the world, in its own rotation mode."""
+    above = np.array(box.matrix_world @ box.matrix_basis.inverted(), dtype=float)
+    scale = np.cbrt(np.linalg.det(above[:3, :3]))
+    turned = above[:3, :3] / scale
+    places = (origins - above[:3, 3]) @ turned / scale
+    channels = [
+        Channel("location", places, "Object Transforms"),
+        Channel(_ROTATION_PATHS.get(box.rotation_mode, "rotation_euler"),
+                rotation_values(turned.T @ rotations, box.rotation_mode), "Object Transforms"),
+    ]
+    return write_action(box, name, channels, first_frame)
+
+
+def box_world_places(skeleton: Skeleton, positions: Array, quaternions: Array) -> tuple[Array, Array]:
+    """Box origins (F, 3) and turns (F, 3, 3) from the body frame to the world; the turn carries the body's x, y, z."""
+    to_world = skeleton.axes.T
+    return skeleton.to_world(positions), to_world @ from_quaternion(quaternions)

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rigs to test on, and random motions of them made with Blender's own posing."""
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import bpy
+import fake_core
+import numpy as np
+from mathutils import Euler, Matrix, Vector
+from reachcast.rigs.joints import JOINTS, SIDES
+from reachcast.rigs.limbs import LEAST_REST_BEND_DEG
+from reachcast.rigs.rotations import normalise
+from reachcast.rigs.skeleton import Skeleton, rest_bend, rest_hinge
+from reachcast.scene.mannequin import build_mannequin
+from reachcast.scene.measure import sample
+from reachcast.scene.read_rig import read_rig
+
+#: Degrees that a segment swings about each of its axes in a random motion.
+_SWING = {"pelvis": 25, "spine": 30, "neck": 20, "head": 25, "clavicle": 12, "upper_arm": 55, "forearm": 40,
+          "hand": 25, "thigh": 40, "shin": 30, "foot": 15}
+
+
+def mannequin(stature: float = 1.75) -> bpy.types.Object:
+    posture = fake_core.Body.from_stature(stature).posture
+    rig = build_mannequin(bpy.context.collection, dict(zip(JOINTS, map(tuple, posture))), None, stature=stature)
+    return rig
+
+
+def metarig() -> bpy.types.Object:
+    bpy.ops.preferences.addon_enable(module="rigify")
+    bpy.ops.object.armature_human_metarig_add()
+    return bpy.context.object
+
+
+RIGS: dict[str, Callable[[], bpy.types.Object]] = {"mannequin": mannequin, "metarig": metarig}
+
+
+def set_rest_arms(rig: bpy.types.Object, degrees_from_hanging: float) -> None:
+    """Makes the arms' rest straight, `degrees_from_hanging` out from the body: 90 is a T pose, 45 an A pose."""
+    angle = math.radians(degrees_from_hanging)
+    _edit(rig, lambda bones: [_straighten(bones, side, Vector((sign * math.sin(angle), 0.0, -math.cos(angle))))
+                              for side, sign in (("L", 1.0), ("R", -1.0))])
+
+
+def set_rolls(rig: bpy.types.Object, rolls: np.ndarray) -> None:
+    """Adds to the roll of every bone, radians, repeating `rolls`."""
+    def change(bones: bpy.types.ArmatureEditBones) -> None:
+        for index, bone in enumerate(bones):
+            bone.roll += float(rolls[index % len(rolls)])
+    _edit(rig, change)
+
+
+def _straighten(bones: bpy.types.ArmatureEditBones, side: str, along: Vector) -> None:
+    for name in ("upper_arm", "forearm", "hand"):
+        bone = bones[f"{name}.{side}"]
+        shift = bone.head + along * bone.length - bone.tail
+        bone.tail += shift
+        for child in bone.children_recursive:
+            child.head += shift
+            child.tail += shift
+
+
+def _edit(rig: bpy.types.Object, change: Callable[[bpy.types.ArmatureEditBones], object]) -> None:
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.mode_set(mode="EDIT")
+    change(rig.data.edit_bones)
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def random_motion(rig: bpy.types.Object, seed: int, frames: int) -> np.ndarray:
+    """Joint centres (frames, 27, 3) in the world of `rig` posed at random but smoothly; the rig is then at rest again.
+
+    The poses are set and read through Blender. Pelvis and chest stay rigid because only their own bones are turned;
+    elbows and knees turn about their hinges.
+    """
+    skeleton, random = read_rig(rig), np.random.default_rng(seed)
+    swings = {segment: (random.uniform(-1, 1, (3, 2)), _SWING[segment.split(".")[0]]) for segment in skeleton.segments
+              if segment.split(".")[0] in _SWING}
+    joints = []
+    for frame in range(frames):
+        phase = np.array([math.sin(2.0 * math.pi * frame / frames), math.cos(2.0 * math.pi * frame / frames)])
+        for segment, (amounts, degrees) in swings.items():
+            bone = rig.pose.bones[skeleton.bones.names[skeleton.segments[segment]]]
+            bone.matrix_basis = _turned(skeleton, segment, np.radians(degrees) * (amounts @ phase))
+            if segment == "pelvis":
+                moved = Vector(0.2 * phase[0] * random_direction(seed) / skeleton.bones.scale)
+                bone.matrix_basis = Matrix.Translation(moved) @ bone.matrix_basis
+        bpy.context.view_layer.update()
+        joints.append(sample_now(rig, skeleton))
+    for bone in rig.pose.bones:
+        bone.matrix_basis = Matrix()
+    bpy.context.view_layer.update()
+    return np.stack(joints)
+
+
+def _turned(skeleton: Skeleton, segment: str, angles: np.ndarray) -> Matrix:
+    """A bone's own rotation: about all three axes, or only the right way about the hinge of an elbow or a knee."""
+    name, _, side = segment.partition(".")
+    if name not in ("forearm", "shin"):
+        return Euler(angles).to_matrix().to_4x4()
+    names = ("shoulder", "elbow", "wrist") if name == "forearm" else ("hip", "knee", "ankle")
+    first, middle = (skeleton.joint(f"{dict(SIDES)[side]}_{joint}") for joint in names[:2])
+    upper, ahead = normalise(middle - first), skeleton.axes[1]
+    straight = rest_hinge(upper, skeleton.axes) if name == "forearm" else normalise(np.cross(upper, -ahead))
+    hinge = rest_bend(skeleton.joints, side, names, straight, LEAST_REST_BEND_DEG)
+    own = skeleton.bones.rotations[skeleton.segments[segment]].T @ hinge
+    return Matrix.Rotation(0.1 + abs(float(angles[0])), 4, Vector(own))
+
+
+def random_direction(seed: int) -> np.ndarray:
+    direction = np.random.default_rng(seed + 1).normal(size=3)
+    return direction / np.linalg.norm(direction)
+
+
+def sample_now(rig: bpy.types.Object, skeleton: Skeleton) -> np.ndarray:
+    """(27, 3): the joint centres in the scene as it is."""
+    return sample(rig, skeleton, [bpy.context.scene.frame_current]).joints[0]

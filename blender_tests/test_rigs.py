@@ -1,0 +1,314 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From joint centres to a rig's bones: whatever Blender can pose, retargeting and writing give back."""
+from __future__ import annotations
+
+import math
+import unittest
+
+import bpy
+import numpy as np
+from mathutils import Euler, Matrix, Quaternion
+from reachcast.rigs import bone_map, channels, rotations
+from reachcast.rigs.joints import INDEX, SIDES
+from reachcast.rigs.retarget import EXACT_JOINTS, posed_joints, retarget
+from reachcast.scene.measure import (Samples, _forearm_twists, elbow_flexion, fastest_joint, knee_flexion, sample)
+from reachcast.scene.read_rig import read_rig
+from reachcast.scene.write_motion import write_rig_action
+from rig_cases import RIGS, mannequin, metarig, random_motion, set_rest_arms, set_rolls
+
+#: Metres. Keys and Blender's own pose are single precision; errors add up over nine bones.
+JOINT_TOLERANCE = 1e-5
+#: Relative. A length in single precision after nine products.
+STRETCH_TOLERANCE = 5e-6
+#: Radians. A limb a few degrees bent at rest takes part of its roll from that bend, part from the straight limb's hinge.
+REST_TOLERANCE = 0.01
+FRAMES = 24
+FIRST = 11
+
+PLACES = {
+    "as made": Matrix(),
+    "moved": Matrix.Translation((3.0, -2.0, 0.7)),
+    "turned": Euler((0.0, 0.0, 2.1)).to_matrix().to_4x4(),
+    "scaled 0.01": Matrix.Scale(0.01, 4),
+    "scaled 2.5": Matrix.Scale(2.5, 4),
+    "all three": Matrix.LocRotScale((-1.0, 4.0, 0.2), Euler((0.02, -0.03, -1.2)), (1.3, 1.3, 1.3)),
+}
+
+
+class RoundTrip(unittest.TestCase):
+    def round_trip(self, rig: bpy.types.Object, seed: int, frames: int = FRAMES) -> Samples:
+        """Poses the rig at random, retargets what its joints did, and asserts that the Action does the same."""
+        joints = random_motion(rig, seed, frames)
+        skeleton = read_rig(rig)
+        write_rig_action(rig, skeleton, retarget(skeleton, joints), "round trip", FIRST)
+        samples = sample(rig, skeleton, range(FIRST, FIRST + frames))
+        # the tolerance is for a person's size; a rig of another size rounds in its own
+        size = max(1.0, skeleton.height / 1.8)
+        off = np.linalg.norm(samples.joints - joints, axis=2)[:, EXACT_JOINTS]
+        self.assertLess(off.max(), JOINT_TOLERANCE * size, f"joint {np.unravel_index(off.argmax(), off.shape)}")
+        self.assertLess(np.abs(samples.stretch).max(), STRETCH_TOLERANCE)
+        return samples
+
+    def test_every_world_transform(self) -> None:
+        for rig_name, make in RIGS.items():
+            for place, matrix in PLACES.items():
+                with self.subTest(rig=rig_name, place=place):
+                    rig = make()
+                    rig.matrix_world = matrix
+                    bpy.context.view_layer.update()
+                    self.round_trip(rig, seed=1)
+
+    def test_parented_rig(self) -> None:
+        for rig_name, make in RIGS.items():
+            with self.subTest(rig=rig_name):
+                rig = make()
+                parent = bpy.data.objects.new("Parent", None)
+                bpy.context.collection.objects.link(parent)
+                parent.matrix_world = Matrix.LocRotScale((1.0, 2.0, 0.0), Euler((0.0, 0.0, 0.8)), (0.5, 0.5, 0.5))
+                rig.parent = parent
+                rig.location.x = 1.5
+                bpy.context.view_layer.update()
+                self.round_trip(rig, seed=2)
+
+    def test_rest_poses(self) -> None:
+        for rig_name, make in RIGS.items():
+            for degrees in (3.0, 45.0, 90.0):
+                with self.subTest(rig=rig_name, degrees=degrees):
+                    rig = make()
+                    set_rest_arms(rig, degrees)
+                    self.round_trip(rig, seed=3)
+
+    def test_bone_rolls(self) -> None:
+        for rig_name, make in RIGS.items():
+            with self.subTest(rig=rig_name):
+                rig = make()
+                set_rolls(rig, np.random.default_rng(4).uniform(-math.pi, math.pi, 17))
+                self.round_trip(rig, seed=4)
+
+    def test_rotation_modes(self) -> None:
+        for mode in (*channels.EULER_ORDERS, "AXIS_ANGLE"):
+            with self.subTest(mode=mode):
+                rig = mannequin()
+                for bone in rig.pose.bones:
+                    bone.rotation_mode = mode
+                self.round_trip(rig, seed=5)
+
+    def test_many_motions(self) -> None:
+        for rig_name, make in RIGS.items():
+            rig = make()
+            for seed in range(10, 16):
+                with self.subTest(rig=rig_name, seed=seed):
+                    rig.animation_data_clear()
+                    self.round_trip(rig, seed)
+
+    def test_pelvis_without_local_location_and_below_a_turned_root(self) -> None:
+        for local in (True, False):
+            with self.subTest(use_local_location=local):
+                rig = mannequin()
+                _add_root(rig)
+                rig.data.bones["hips"].use_local_location = local
+                self.round_trip(rig, seed=6)
+
+    def test_bones_do_not_jump(self) -> None:
+        for rig_name, make in RIGS.items():
+            with self.subTest(rig=rig_name):
+                rig = make()
+                samples = self.round_trip(rig, seed=7, frames=4 * FRAMES)  # the swings take four seconds
+                self.assertLess(fastest_joint(samples, read_rig(rig), 24.0), 15.0)
+
+    def test_forearm_shares_its_twist_with_the_hand(self) -> None:
+        for rig_name, make in RIGS.items():
+            for degrees in (10.0, 90.0):
+                with self.subTest(rig=rig_name, degrees=degrees):
+                    rig = make()
+                    set_rest_arms(rig, degrees)
+                    samples, skeleton = self.round_trip(rig, seed=8), read_rig(rig)
+                    for side, _ in SIDES:
+                        for twist in _forearm_twists(samples, skeleton, side):
+                            self.assertLess(np.degrees(np.abs(twist)).max(), 90.0)
+
+
+class StraightLimbs(unittest.TestCase):
+    def test_limbs_that_straighten_and_bend_again_keep_their_hinge(self) -> None:
+        """A squat that passes through straight knees and arms: flexion never changes sign, nothing spins."""
+        for rig_name, make in RIGS.items():
+            with self.subTest(rig=rig_name):
+                rig = make()
+                skeleton = read_rig(rig)
+                joints = _squat(rig, 40)
+                write_rig_action(rig, skeleton, retarget(skeleton, joints), "squat", 1)
+                samples = sample(rig, skeleton, range(1, 41))
+                off = np.abs(samples.joints - joints)[:, EXACT_JOINTS]
+                self.assertLess(off.max(), JOINT_TOLERANCE)
+                self.assertLess(fastest_joint(samples, skeleton, 24.0), 15.0)
+                for side, _ in SIDES:
+                    self.assertGreaterEqual(knee_flexion(samples, skeleton, side).min(), 0.0)
+                    self.assertGreaterEqual(elbow_flexion(samples, skeleton, side).min(), 0.0)
+
+    def test_rest_joints_give_the_rest_pose(self) -> None:
+        for rig_name, make in RIGS.items():
+            with self.subTest(rig=rig_name):
+                skeleton = read_rig(make())
+                pose = retarget(skeleton, np.repeat(skeleton.joints[None], 3, axis=0))
+                for bone, turns in pose.turns.items():
+                    segment = {bone: segment for segment, bone in skeleton.segments.items()}.get(bone, "")
+                    if segment.startswith(("forearm", "hand")):
+                        continue  # the palms turn to face each other
+                    self.assertLess(np.abs(turns - np.eye(3)).max(), REST_TOLERANCE, skeleton.bones.names[bone])
+                off = posed_joints(skeleton, pose)[0] - skeleton.joints
+                self.assertLess(np.abs(off[EXACT_JOINTS, :]).max(), 1e-9)
+
+
+class Refusals(unittest.TestCase):
+    def refused(self, rig: object, *words: str, **options: object) -> None:
+        with self.assertRaises(ValueError) as caught:
+            read_rig(rig, **options)  # type: ignore[arg-type]
+        message = str(caught.exception)
+        for word in words:
+            self.assertIn(word, message)
+        self.assertNotIn("\n", message)
+
+    def test_transforms(self) -> None:
+        for scale, words in (((0.0, 0.0, 0.0), ("scale", "above zero")), ((-1.0, 1.0, 1.0), ("negative",)),
+                             ((1.0, 1.0, 1.2), ("unevenly", "1.2"))):
+            with self.subTest(scale=scale):
+                rig = mannequin()
+                rig.scale = scale
+                bpy.context.view_layer.update()
+                self.refused(rig, rig.name, *words)
+        rig = mannequin()
+        rig.location.x = math.nan
+        bpy.context.view_layer.update()
+        self.refused(rig, rig.name, "not a number")
+
+    def test_lying_rig(self) -> None:
+        rig = mannequin()
+        rig.rotation_euler.x = math.radians(90.0)
+        bpy.context.view_layer.update()
+        self.refused(rig, "upright", "87", "60")
+
+    def test_not_an_armature(self) -> None:
+        self.refused(None, "armature", "nothing")
+        self.refused(bpy.data.objects.new("Thing", None), "armature", "Thing")
+
+    def test_every_missing_bone_is_named(self) -> None:
+        rig = mannequin()
+        rig.data.bones["hand.L"].name = "paw"
+        rig.data.bones["shin.R"].name = "stick"
+        self.refused(rig, "hand.L", "shin.R", "Reachcast mannequin")
+
+    def test_constraints_and_inheritance_name_their_bones(self) -> None:
+        rig = mannequin()
+        rig.pose.bones["forearm.L"].constraints.new("COPY_ROTATION")
+        self.refused(rig, "forearm.L", "constraints")
+        rig.pose.bones["forearm.L"].constraints[0].mute = True
+        read_rig(rig)
+        rig.data.bones["thigh.R"].use_inherit_rotation = False
+        self.refused(rig, "thigh.R", "inherit rotation")
+        rig.data.bones["thigh.R"].use_inherit_rotation = True
+        rig.data.bones["neck"].inherit_scale = "NONE"
+        self.refused(rig, "neck", "inherit scale")
+
+    def test_bone_maps(self) -> None:
+        good = bone_map.presets()[0]
+        for text, words in (("{", ("not JSON",)), ("[]", ("segments",)),
+                            ('{"segments": {"tail": "x"}}', ("unknown", "tail")),
+                            ('{"segments": {}, "grips": {"L": {"bone": "x", "along": 2}}}', ("along", "2"))):
+            with self.subTest(text=text), self.assertRaises(ValueError) as caught:
+                bone_map.parse_bone_map(text, "mine.json")
+            for word in words:
+                self.assertIn(word, str(caught.exception))
+        twice = bone_map.BoneMap("twice", {**good.segments, "hand.L": good.segments["hand.R"]})
+        self.refused(RIGS["mannequin"](), "both", bone_map=twice)
+
+    def test_grip_override(self) -> None:
+        rig = metarig()
+        preset = next(preset for preset in bone_map.presets() if "metarig" in preset.name)
+        palm = bone_map.BoneMap("palm", preset.segments, {"L": bone_map.GripPlace("palm.02.L", 0.5)})
+        bone = rig.data.bones["palm.02.L"]
+        np.testing.assert_allclose(read_rig(rig, palm).joint("left_grip"),
+                                   0.5 * (bone.head_local + bone.tail_local), atol=1e-6)
+        wrong = bone_map.BoneMap("wrong", preset.segments, {"L": bone_map.GripPlace("spine")})
+        self.refused(rig, "grip.L", "spine", bone_map=wrong)
+
+
+class Rotations(unittest.TestCase):
+    """Against mathutils, which is another implementation."""
+
+    def setUp(self) -> None:
+        random = np.random.default_rng(0)
+        self.quaternions = rotations.normalise(random.normal(size=(200, 4)))
+        self.matrices = rotations.from_quaternion(self.quaternions)
+
+    def test_matrices(self) -> None:
+        for quaternion, matrix in zip(self.quaternions, self.matrices):
+            np.testing.assert_allclose(matrix, Quaternion(quaternion).to_matrix(), atol=1e-6)
+        same = rotations.to_quaternion(self.matrices)
+        np.testing.assert_allclose(np.abs(np.sum(same * self.quaternions, axis=1)), 1.0, atol=1e-12)
+
+    def test_euler_orders(self) -> None:
+        for order in channels.EULER_ORDERS:
+            for matrix, angles in zip(self.matrices, channels.euler_angles(self.matrices, order)):
+                np.testing.assert_allclose(Euler(angles, order).to_matrix(), matrix, atol=1e-5)
+
+    def test_euler_angles_through_the_gimbal(self) -> None:
+        for order in channels.EULER_ORDERS:
+            middle = "XYZ".index(order[1])
+            path = []
+            for step in range(60):
+                angles = [0.4, 0.4, 0.4]
+                angles[middle] = math.radians(60.0 + step)  # passes exactly 90 degrees
+                path.append(np.array(Euler(angles, order).to_matrix(), dtype=float))
+            values = channels.euler_angles(np.stack(path), order)
+            for matrix, angles in zip(path, values):
+                np.testing.assert_allclose(Euler(angles, order).to_matrix(), matrix, atol=1e-5)
+            self.assertLess(np.abs(np.diff(values, axis=0)).max(), 0.2)
+
+    def test_values_do_not_jump(self) -> None:
+        angle = np.linspace(0.0, 4.0 * math.pi, 120)
+        spin = rotations.axis_rotation(np.broadcast_to([0.0, 0.6, 0.8], (120, 3)), angle)
+        for mode, most in (("QUATERNION", 0.06), ("AXIS_ANGLE", 0.12), ("XYZ", 0.5), ("ZYX", 0.5)):
+            values = channels.rotation_values(spin, mode)
+            self.assertLess(np.abs(np.diff(values, axis=0)).max(), most, mode)
+
+    def test_aim_is_a_rotation_even_backwards(self) -> None:
+        start = rotations.normalise(np.random.default_rng(1).normal(size=(50, 3)))
+        for end in (start[::-1].copy(), -start, start):
+            turned = rotations.aim(start, end)
+            np.testing.assert_allclose(rotations.turn(turned, start), end, atol=1e-9)
+            np.testing.assert_allclose(np.linalg.det(turned), 1.0, atol=1e-9)
+
+
+def _add_root(rig: bpy.types.Object) -> None:
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.mode_set(mode="EDIT")
+    root = rig.data.edit_bones.new("root")
+    root.head, root.tail = (0.1, 0.3, 0.0), (0.3, 0.7, 0.2)
+    rig.data.edit_bones["hips"].parent = root
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def _squat(rig: bpy.types.Object, frames: int) -> np.ndarray:
+    """Joint centres of knees and elbows that go from bent to quite straight and back, posed in the joint space."""
+    skeleton = read_rig(rig)
+    joints = np.repeat(skeleton.joints[None], frames, axis=0)
+    body = skeleton.to_body(joints)
+    bend = np.radians(70.0) * np.maximum(0.0, np.cos(np.linspace(0.0, 2.0 * math.pi, frames)))
+    turned = np.stack([rotations.axis_rotation(np.array([1.0, 0.0, 0.0]), angle) for angle in bend])
+    for _, word in SIDES:
+        chain = [body[0, INDEX[f"{word}_{name}"]] for name in ("shoulder", "elbow", "wrist", "grip")]
+        upper, lower, hand = (np.linalg.norm(b - a) for a, b in zip(chain, chain[1:]))
+        down = np.array([0.0, 0.0, -1.0])
+        elbow = chain[0] + upper * down
+        wrist = elbow + lower * turned @ down
+        body[:, INDEX[f"{word}_elbow"]], body[:, INDEX[f"{word}_wrist"]] = elbow, wrist
+        body[:, INDEX[f"{word}_grip"]] = wrist + hand * turned @ down
+        hip, knee, ankle, ball = (body[0, INDEX[f"{word}_{name}"]].copy() for name in
+                                  ("hip", "knee", "ankle", "ball"))
+        thigh, shin = np.linalg.norm(knee - hip), np.linalg.norm(ankle - knee)
+        ahead = np.stack([rotations.axis_rotation(np.array([1.0, 0.0, 0.0]), 0.5 * angle) for angle in bend]) @ down
+        behind = np.stack([rotations.axis_rotation(np.array([1.0, 0.0, 0.0]), -0.5 * angle) for angle in bend]) @ down
+        body[:, INDEX[f"{word}_knee"]] = hip + thigh * ahead
+        body[:, INDEX[f"{word}_ankle"]] = hip + thigh * ahead + shin * behind
+        body[:, INDEX[f"{word}_ball"]] = body[:, INDEX[f"{word}_ankle"]] + ball - ankle
+    return skeleton.to_world(body)
