@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "module.hpp"
 #include "reachcast/mocap/joint_map.hpp"
 #include "reachcast/mocap/motion_file.hpp"
 #include "reachcast/motion/cut_reach.hpp"
