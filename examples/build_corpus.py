@@ -29,6 +29,7 @@ DRIFT_M = 0.15  # the same for ankles found from video, which waver
 LEAST_RISE_M = 0.25
 LEAST_SECONDS = 0.4
 UNEVEN_M = 0.15  # one hand this much higher than the other: not a lift with both hands alike
+PARTED_M = 0.16  # hands (from video, so they waver) that part this much do not hold one box between them
 SLIP_M = 0.08  # a hand whose distance from the object's centre varies this much does not hold it
 RISE_BEGINS_M = 0.01  # an object this much higher than it stood has been lifted off
 UNSTABLE = 0.10  # of a segment's median length: a joint was lost
@@ -130,15 +131,19 @@ def rest_after_rise(hands, rate):
     return end, speed[end] / speed[peak]
 
 
+def check_rise(clip, start, end):
+    rise = abs(float(np.diff(hold_point(clip)[[start, end], 2])[0]))
+    if rise < LEAST_RISE_M:
+        raise Rejected(f"the hands travel only {rise:.2f} m in height with the feet still")
+
+
 def check_lift(clip, object_points, start, end, open_speed):
     """Raises Rejected when frames start to end are not a lift (or its reverse) with both hands and standing feet."""
     seconds = (end - start) / clip.rate
     if seconds < LEAST_SECONDS:
         raise Rejected(f"lasts only {seconds:.2f} s with the feet still")
     part = slice(start, end + 1)
-    rise = abs(float(np.diff(hold_point(clip)[[start, end], 2])[0]))
-    if rise < LEAST_RISE_M:
-        raise Rejected(f"the hands travel only {rise:.2f} m in height with the feet still")
+    check_rise(clip, start, end)
     if open_speed > FASTEST_END:
         raise Rejected(f"a step cuts it off while the hands move at {open_speed:.0%} of their peak speed")
     grips = {side: joint(clip, f"{side}_grip")[part] for side in ("left", "right")}
@@ -170,7 +175,7 @@ def omomo_phases(folder):
                 start, end, open_speed = find_frames(clip, heights, moves, rests)
                 origin = f"omomo/{name}.csv:{start}-{end}"
                 check_lift(clip, object_points, start, end, open_speed)
-                yield Candidate(origin, rc.cut_reach(clip, start, end, subject, "transfer", origin, floor_z=0.0))
+                yield Candidate(origin, rc.cut_reach(clip, start, end, subject, "transfer", origin))
             except (Rejected, ValueError) as why:
                 yield Candidate(origin, reason=str(why))
 
@@ -191,6 +196,14 @@ def check_tracking(recorded, clip, start, end, flagged):
         moved = float(farthest_from(joint(clip, f"{side}_ankle")[part], 0).max())
         if moved > DRIFT_M:
             raise Rejected(f"the {side} foot moves {moved:.2f} m")
+
+
+def check_hold(clip, start, end):
+    """Raises Rejected when the hands do not keep the distance they have at the start."""
+    apart = np.linalg.norm(joint(clip, "left_grip") - joint(clip, "right_grip"), axis=1)[start : end + 1]
+    parted = float(np.abs(apart - apart[0]).max())
+    if parted > PARTED_M:
+        raise Rejected(f"the distance between the hands changes by {parted:.2f} m: they hold no box")
 
 
 def lieblich_phases(folder):
@@ -216,6 +229,9 @@ def lieblich_phases(folder):
                 first, last = (int(row[column]) - offset for column in (begin, finish))
                 start, end = rc.trim_by_hand_speed(clips[key], first, last, STILL)
                 origin = f"lieblich/{name}:{start}-{end}"
+                check_rise(clips[key], start, end)
+                if phase == "transfer":
+                    check_hold(clips[key], start, end)
                 check_tracking(recordings[key], clips[key], start, end, flagged)
                 reach = rc.cut_reach(clips[key], start, end, rc.Subject(statures[key[0]]), phase, origin)
                 yield Candidate(origin, reach)
