@@ -31,9 +31,8 @@ class Body:
     stature: float
 
     @staticmethod
-    def from_posture(positions: Any) -> Body:
-        positions = np.array(positions, dtype=float)
-        return Body(positions, float(positions[INDEX["nasion"], 2]) / 0.945)
+    def from_posture(posture: Any, stature: float) -> Body:
+        return Body(np.array(posture, dtype=float), stature)
 
     @staticmethod
     def from_stature(stature: float, sex: str | None = None) -> Body:
@@ -60,6 +59,7 @@ class Box:
     height: float
     handle_height: float
     mass: float
+    grip_distance: float
 
 
 @dataclass(frozen=True)
@@ -78,6 +78,15 @@ class Corpus:
             return Corpus()
 
 
+@dataclass(frozen=True)
+class Neighbour:
+    id: int = 7
+    origin: str = "statue"
+    mirrored: bool = False
+    weight: float = 1.0
+    distances: Any = field(default_factory=lambda: {"target": 0.1, "home": 0.0, "stature": 0.02})
+
+
 @dataclass
 class Motion:
     positions: np.ndarray
@@ -86,8 +95,9 @@ class Motion:
     box_quaternions: np.ndarray
     events: dict[str, int]
     joints: tuple[str, ...] = JOINTS
-    neighbours: list[Any] = field(default_factory=lambda: [(7, 1.0, {"target": 0.1, "stature": 0.02})])
+    neighbours: list[Neighbour] = field(default_factory=lambda: [Neighbour()])
     outside_data: bool = False
+    outside_reasons: list[str] = field(default_factory=list)
     corrections: list[str] = field(default_factory=list)
 
 
@@ -101,7 +111,7 @@ def predict(corpus: Corpus, subject: Subject, task: Task, body: Body | None = No
     yaw = task.home_yaw + progress * (task.target_yaw - task.home_yaw)
     turned = np.stack([np.cos(yaw / 2), 0 * yaw, 0 * yaw, np.sin(yaw / 2)], axis=1)
     positions = np.repeat(body.posture[None], count, axis=0)
-    handle = 0.5 * task.object.width * np.stack([np.cos(yaw), np.sin(yaw), 0 * yaw], axis=1)
+    handle = 0.5 * task.object.grip_distance * np.stack([np.cos(yaw), np.sin(yaw), 0 * yaw], axis=1)
     middle = box + [0.0, 0.0, task.object.handle_height]
     _place_arm(positions, "left", middle - handle)
     _place_arm(positions, "right", middle + handle)

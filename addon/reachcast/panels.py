@@ -73,9 +73,11 @@ class REACHCAST_PT_result(_Tab, bpy.types.Panel):
             _words(column, event.replace("_", " ").capitalize(), f"frame {action[event]}")
         _words(column, "Landing", f"{action['reachcast_landing_error_m'] * 1000.0:.2f} mm off")
         _words(column, "Grip", f"{action['reachcast_grip_error_m'] * 1000.0:.2f} mm off")
-        outside = action["reachcast_outside_data"]
-        _lines(self.layout, context, "The target lies outside the recorded ones: take it with care." if outside
-               else "The target lies within the recorded ones.", "ERROR" if outside else "CHECKMARK")
+        if action["reachcast_outside_data"]:
+            why = action["reachcast_outside_reasons"] or "the target"
+            _lines(self.layout, context, f"Outside the recorded data, take it with care: {why}", "ERROR")
+        else:
+            _lines(self.layout, context, "Within the recorded data.", "CHECKMARK")
         _lines(self.layout, context, f"From motions {action['reachcast_neighbours']}", "COMMUNITY")
         if action["reachcast_corrections"]:
             _lines(self.layout, context, f"Corrected: {action['reachcast_corrections']}", "INFO")

@@ -37,6 +37,6 @@ class REACHCAST_OT_predict_motion(bpy.types.Operator):
 
 
 def summary(result: PredictionResult) -> str:
-    where = "outside the recorded targets" if result.outside_data else "within the recorded targets"
+    where = "outside the recorded data" if result.outside_data else "within the recorded data"
     return (f"'{result.action}': frames {result.first_frame} to {result.frames['end']}, lands within "
             f"{result.errors['landing'] * 1000:.2f} mm, from {len(result.neighbours)} motions, {where}")

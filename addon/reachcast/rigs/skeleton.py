@@ -6,6 +6,7 @@ Body frame: origin on the floor midway between the ankles, x to the subject's ri
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,8 @@ from .joints import INDEX, JOINTS, SIDES
 from .rotations import Array, dot, normalise
 
 MAX_LEAN_DEG = 60.0
+#: The lowest bone of the feet is at most this part of the height above the floor.
+_SOLE = 0.05
 #: From tragion to nasion and from grip to the front of the hand, as parts of the rig's height.
 _NASION_FORWARD, _NASION_UP, _HAND_HALF_WIDTH = 0.055, 0.015, 0.023
 
@@ -28,6 +31,7 @@ class Bones:
     heads: Array              #: (B, 3)
     tails: Array              #: (B, 3)
     rotations: Array          #: (B, 3, 3): columns are the bone's own x, y (head to tail), z
+    origin: Array             #: (3,) the armature's own origin
     scale: float = 1.0        #: world metres per unit of the armature
 
     def index(self, name: str) -> int:
@@ -84,9 +88,8 @@ def build_skeleton(name: str, bones: Bones, bone_map: BoneMap) -> Skeleton:
     segments = {segment: bones.index(bone) for segment, bone in fitted.segments.items()}
     _check_hierarchy(name, bones, segments)
     keyed = sorted({bone for mapped in segments.values() for bone in (mapped, *bones.ancestors(mapped))})
-    floor = min(float(ends[bone, 2]) for bone in bones.family({segments["foot.L"], segments["foot.R"]})
-                for ends in (bones.heads, bones.tails))
-    top = max(float(ends[bone, 2]) for bone in bones.family({segments["head"]}) for ends in (bones.heads, bones.tails))
+    top = _extreme(max, bones, {segments["head"]})
+    floor = _floor(bones, _extreme(min, bones, {segments["foot.L"], segments["foot.R"]}), top)
     joints = _main_joints(bones, fitted, segments)
     axes = _body_axes(name, joints)
     _check_lengths(name, joints, top - floor)
@@ -94,6 +97,17 @@ def build_skeleton(name: str, bones: Bones, bone_map: BoneMap) -> Skeleton:
     ankles = 0.5 * (joints[INDEX["left_ankle"]] + joints[INDEX["right_ankle"]])
     return Skeleton(name, bones, fitted, segments, tuple(keyed), joints, np.array([*ankles[:2], floor]), axes,
                     top - floor)
+
+
+def _extreme(choose: Callable[[Iterable[float]], float], bones: Bones, roots: set[int]) -> float:
+    """The lowest or highest end of these bones and all below them."""
+    return choose(float(ends[bone, 2]) for bone in bones.family(roots) for ends in (bones.heads, bones.tails))
+
+
+def _floor(bones: Bones, lowest: float, top: float) -> float:
+    """Height of the floor: of the rig's origin if that is a sole's thickness below the feet's bones, else of those."""
+    origin = float(bones.origin[2])
+    return origin if lowest - _SOLE * (top - lowest) <= origin <= lowest else lowest
 
 
 def _check_hierarchy(name: str, bones: Bones, segments: dict[str, int]) -> None:

@@ -168,7 +168,7 @@ def _box_errors(samples: Samples, events: dict[str, int], shape: BoxShape | None
         return (float("nan"),) * 3
     grasp, release = samples.frames.index(events["grasp"]), samples.frames.index(events["release"])
     base = samples.box_origins - turn(samples.box_axes, np.array(shape.origin_offset))
-    ends = [base + turn(samples.box_axes, np.array([sign * 0.5 * shape.width, 0.0, shape.handle_height]))
+    ends = [base + turn(samples.box_axes, np.array([sign * 0.5 * shape.grip_distance, 0.0, shape.handle_height]))
             for sign in (-1.0, 1.0)]
     left, right = (samples.joints[:, INDEX[f"{word}_grip"]] for word in ("left", "right"))
     straight = [np.linalg.norm(left - ends[0], axis=1), np.linalg.norm(right - ends[1], axis=1)]

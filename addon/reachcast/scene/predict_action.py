@@ -2,6 +2,7 @@
 """`predict_motion`: a rig and a shelf become an Action. The plain function behind the button, for scripts too."""
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -20,7 +21,7 @@ from ..rigs.rotations import Array, axis_rotation
 from ..rigs.skeleton import Skeleton
 from .action_writer import refuse_unwritable
 from .read_rig import read_rig
-from .read_task import Lift, read_lift
+from .read_task import Lift, read_lift, refuse_held_box
 from .transforms import evaluate_transforms
 from .write_motion import box_world_places, write_box_action, write_rig_action
 
@@ -28,6 +29,17 @@ EVENTS = ("grasp", "lift_off", "placed", "release", "end")
 DATA_FOLDER = Path(__file__).parents[1] / "data"
 #: How far the posed rig may be from the predicted joints. Single precision keys are a hundred times finer.
 MAX_MISFIT_M = 1e-3
+
+
+@dataclass(frozen=True)
+class Neighbour:
+    """A recorded motion that took part. Distances in metres: between the targets, the homes, the statures."""
+
+    id: int
+    origin: str
+    mirrored: bool
+    weight: float
+    distances: Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -39,8 +51,9 @@ class PredictionResult:
     box_action: str | None
     frames: Mapping[str, int]                             #: scene frame of each of EVENTS
     first_frame: int
-    neighbours: tuple[tuple[Any, float, Mapping[str, float]], ...]
+    neighbours: tuple[Neighbour, ...]                     #: nearest first
     outside_data: bool
+    outside_reasons: tuple[str, ...]
     corrections: tuple[str, ...]
     errors: Mapping[str, float]                           #: metres: landing, grip (while held), pose (rig to prediction)
 
@@ -69,6 +82,8 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
     lift = read_lift(skeleton, shelf, home, box)
     for owner in filter(None, (rig, box)):
         refuse_unwritable(owner)
+    if box is not None:
+        refuse_held_box(box, rig)
     motion = _predict(core, skeleton, lift, _corpus(core, corpus), _subject(core, skeleton, stature, sex, age, mass),
                       {"frame_rate": scene.render.fps / scene.render.fps_base, **options})
     joints = skeleton.to_world(np.asarray(motion.positions, float))
@@ -81,8 +96,9 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
     result = PredictionResult(
         rig.name, action.name, box_action.name if box_action else None,
         MappingProxyType({event: first + int(motion.events[event]) for event in EVENTS}), first,
-        tuple((neighbour[0], float(neighbour[1]), dict(neighbour[2])) for neighbour in motion.neighbours),
-        bool(motion.outside_data), tuple(str(correction) for correction in motion.corrections),
+        tuple(Neighbour(near.id, near.origin, near.mirrored, near.weight, MappingProxyType(dict(near.distances)))
+              for near in motion.neighbours),
+        motion.outside_data, tuple(map(str, motion.outside_reasons)), tuple(map(_said, motion.corrections)),
         MappingProxyType(errors))
     _label(action, result)
     return result
@@ -109,9 +125,10 @@ def _predict(core: ModuleType, skeleton: Skeleton, lift: Lift, corpus: object, s
         raise ValueError("reachcast_core names other joints than this add-on; build it from the same version")
     box = lift.box
     task = core.Task(lift.home, lift.target,
-                     core.Box(box.width, box.depth, box.height, box.handle_height, box.mass),
+                     core.Box(box.width, box.depth, box.height, box.handle_height, mass=box.mass,
+                              grip_distance=box.grip_distance),
                      home_yaw=lift.home_yaw, target_yaw=lift.target_yaw)
-    body = core.Body.from_posture(skeleton.to_body(skeleton.joints))
+    body = core.Body.from_posture(skeleton.to_body(skeleton.joints), skeleton.height)
     motion = core.predict(corpus, subject, task, body, **options)
     if missing := [event for event in EVENTS if event not in motion.events]:
         raise ValueError(f"The predicted motion lacks the events {', '.join(missing)}")
@@ -130,7 +147,7 @@ def _errors(skeleton: Skeleton, lift: Lift, motion: Any, pose: RigPose, joints: 
     held = slice(int(motion.events["grasp"]), int(motion.events["release"]) + 1)
     grip = 0.0
     for word, side in (("left", -0.5), ("right", 0.5)):
-        handle = origins + turns @ np.array([side * lift.box.width, 0.0, lift.box.handle_height])
+        handle = origins + turns @ np.array([side * lift.box.grip_distance, 0.0, lift.box.handle_height])
         grip = max(grip, float(np.linalg.norm(reached[:, INDEX[f"{word}_grip"]] - handle, axis=1)[held].max()))
     landed = origins[int(motion.events["release"])]
     return {"landing": float(np.linalg.norm(landed - skeleton.to_world(lift.target))), "grip": grip, "pose": worst}
@@ -144,13 +161,21 @@ def _write_box(box: bpy.types.Object, skeleton: Skeleton, lift: Lift, motion: An
     return write_box_action(box, origins + turns @ np.array(lift.box.origin_offset), turns, name, first)
 
 
+def _said(correction: Any) -> str:
+    """A correction in words: what was moved, by how much at most, in how many frames."""
+    parts = [f"{1000.0 * correction.metres:.0f} mm"] if correction.metres else []
+    parts += [f"{math.degrees(correction.radians):.0f} degrees"] if correction.radians else []
+    return f"{correction.name} by {' and '.join(parts) or 'a little'} in {correction.frames} frames"
+
+
 def _label(action: bpy.types.Action, result: PredictionResult) -> None:
     """The result as custom properties: it is saved with the file and undone with the Action."""
     for event in EVENTS:
         action[event] = result.frames[event]
     action["reachcast_first_frame"] = result.first_frame
     action["reachcast_outside_data"] = result.outside_data
-    action["reachcast_neighbours"] = ", ".join(str(neighbour[0]) for neighbour in result.neighbours)
+    action["reachcast_neighbours"] = ", ".join(str(near.id) for near in result.neighbours)
+    action["reachcast_outside_reasons"] = "; ".join(result.outside_reasons)
     action["reachcast_corrections"] = "; ".join(result.corrections)
     for name, value in result.errors.items():
         action[f"reachcast_{name}_error_m"] = value

@@ -39,7 +39,7 @@ def _bones(rig: bpy.types.Object, place: Placement) -> Bones:
     return Bones(
         names=tuple(index), parents=tuple(index[bone.parent.name] if bone.parent else -1 for bone in bones),
         heads=place.to_world(rest[:, :3, 3]), tails=place.to_world(tails), rotations=place.rotation @ (left @ right),
-        scale=float(np.mean(place.scale)))
+        origin=place.origin, scale=float(np.mean(place.scale)))
 
 
 def _parents_first(bones: list[bpy.types.Bone]) -> list[bpy.types.Bone]:

@@ -13,21 +13,24 @@ from ..rigs.skeleton import Skeleton
 from .transforms import placement
 
 HANDLE_HEIGHT = "reachcast_handle_height"   #: custom property of a box, metres above its base
+GRIP_DISTANCE = "reachcast_grip_distance"   #: custom property of a box, metres between the centres of the two grips
 BOX_MASS = "reachcast_mass"                 #: custom property of a box, kilograms
 MAX_TILT_DEG = 5.0
 DEFAULT_MASS = 5.0
 _DEFAULT_SIZE = (0.35, 0.30, 0.25)
+_HALF_HAND = 0.02                           #: metres from a box's wall to the middle of a hand that holds it
 _MOST_METRES = 3.0                          #: no pair of hands holds a larger box
 
 
 @dataclass(frozen=True)
 class BoxShape:
-    """A box in metres: handles at +-width/2 along its own x, `handle_height` above the centre of its base."""
+    """A box in metres. The grips are `grip_distance` apart along its own x, `handle_height` above the middle of its base."""
 
     width: float
     depth: float
     height: float
     handle_height: float
+    grip_distance: float
     mass: float
     origin_offset: tuple[float, float, float] = (0.0, 0.0, 0.0)  #: from the centre of the base to the object's origin
 
@@ -82,9 +85,24 @@ def read_box(box: bpy.types.Object) -> BoxShape:
             raise ValueError(f"Box '{box.name}' has a {axis} of {length:g} m; it must be from 0.001 to "
                              f"{_MOST_METRES:g} m")
     handle = _number(box, HANDLE_HEIGHT, 0.5 * float(size[2]), 0.0, float(size[2]))
+    grips = _number(box, GRIP_DISTANCE, float(size[0]) + 2.0 * _HALF_HAND, 0.02, _MOST_METRES + 1.0)
     mass = _number(box, BOX_MASS, DEFAULT_MASS, 0.0, 200.0)
     base = np.array([*(0.5 * (low + high))[:2], low[2]])
-    return BoxShape(*(float(length) for length in size), handle, mass, tuple(float(part) for part in -base))
+    return BoxShape(*(float(length) for length in size), handle, grips, mass, tuple(float(part) for part in -base))
+
+
+def refuse_held_box(box: bpy.types.Object, rig: bpy.types.Object) -> None:
+    """ValueError when keys on the box would not decide where it is."""
+    if any(not constraint.mute for constraint in box.constraints):
+        raise ValueError(f"Box '{box.name}' has constraints that would move it; mute or remove them")
+    if any(box.delta_location) or any(box.delta_rotation_euler) or tuple(box.delta_scale) != (1.0, 1.0, 1.0) \
+            or tuple(box.delta_rotation_quaternion) != (1.0, 0.0, 0.0, 0.0):
+        raise ValueError(f"Box '{box.name}' has delta transforms; clear them first")
+    parent = box.parent
+    while parent is not None:
+        if parent == rig:
+            raise ValueError(f"Box '{box.name}' is parented to the rig '{rig.name}'; clear its parent (Alt P)")
+        parent = parent.parent
 
 
 def _number(item: bpy.types.Object, name: str, default: float, least: float, most: float) -> float:
@@ -96,7 +114,7 @@ def _number(item: bpy.types.Object, name: str, default: float, least: float, mos
 
 def _default_box() -> BoxShape:
     width, depth, height = _DEFAULT_SIZE
-    return BoxShape(width, depth, height, 0.5 * height, DEFAULT_MASS)
+    return BoxShape(width, depth, height, 0.5 * height, width + 2.0 * _HALF_HAND, DEFAULT_MASS)
 
 
 def _in_front(skeleton: Skeleton, shape: BoxShape) -> Array:
