@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Builds a corpus from recorded lifts, and says of every recording what became of it.
 
-    python3 examples/build_corpus.py --mocap ../shared/mocap --out corpus.sqlite
+    /usr/bin/python3 examples/build_corpus.py --mocap ../shared/mocap --out corpus.sqlite
 
 Reads the folders omomo/ and lieblich_lifting/ of a mocap collection, cuts phases in which the feet stay where they are,
 and adds each with its mirror image. A recording that is left out is listed with the reason. Adapt `omomo_phases` or
@@ -16,10 +16,15 @@ from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "addon" / "reachcast"))
-import reachcast_core as rc  # noqa: E402
+try:
+    import numpy as np
+    import reachcast_core as rc
+except ImportError as missing:
+    sys.exit(
+        f"{missing}. Run this with the Python that Blender runs, after building reachcast_core for it; this is "
+        f"{sys.executable}, try /usr/bin/python3."
+    )
 
 STILL = 0.10  # of the peak hand speed: below it a phase has not begun, or is over
 FASTEST_END = 0.75  # of the peak hand speed: a phase that a step cuts off faster than this is no phase
