@@ -144,7 +144,8 @@ def test_bvh_up_and_unit_turn_and_scale():
     raw = rc.read_motion(str(path), metres_per_unit=1.0, up="z").positions
     clip = rc.read_motion(str(path))
     assert (clip.up, clip.metres_per_unit) == ("y", 0.01)
-    np.testing.assert_allclose(clip.positions, 0.01 * np.stack([raw[..., 0], -raw[..., 2], raw[..., 1]], -1), rtol=1e-14)
+    turned = np.stack([raw[..., 0], -raw[..., 2], raw[..., 1]], -1)
+    np.testing.assert_allclose(clip.positions, 0.01 * turned, rtol=1e-14)
 
 
 def test_z_up_file_is_recognised():

@@ -112,7 +112,7 @@ def frames_of_lift(clip, heights, moves, rests):
 
 
 def frames_of_lowering(clip, heights, moves, rests):
-    """The same backwards: from where the hands last hold the object up, or the feet have arrived, to where it is down."""
+    """Backwards: from where the hands last hold the object up, or the feet have arrived, to where it is down."""
     above = np.flatnonzero(heights[moves : rests + 1] > heights[rests] + RISE_BEGINS_M)
     if not above.size:
         raise Rejected("the object does not come down")
@@ -213,9 +213,8 @@ def check_hold(clip, start, end):
 
 def lieblich_phases(folder):
     rows = read_rows(folder / "dip_segments.csv")
-    recordings = {
-        (row["subject"], row["dip"]): rc.read_motion(str(folder / f"{row['subject']}_dip{row['dip']}.csv")) for row in rows
-    }
+    keys = [(row["subject"], row["dip"]) for row in rows]
+    recordings = {(who, dip): rc.read_motion(str(folder / f"{who}_dip{dip}.csv")) for who, dip in keys}
     clips = {key: rc.canonical(recorded, "lieblich") for key, recorded in recordings.items()}
     statures = {
         subject: stature_from_skeleton([clip for (who, _), clip in clips.items() if who == subject])

@@ -105,6 +105,27 @@ void choose_up(const MotionFileOptions& options, MotionFile& file) {
   if (!options.up && file.up != 'z') add_note(file.note, std::string("Up is taken to be ") + file.up + ".");
 }
 
+void take_points(const CsvTable& table, const std::vector<std::size_t>& rows, const std::vector<PointColumns>& points,
+                 MotionFile& file) {
+  for (const PointColumns& point : points) file.names.push_back(point.name);
+  file.derived.assign(points.size(), false);
+  for (const std::size_t row : rows) {
+    for (const PointColumns& point : points) {
+      const auto& [x, y, z] = point.columns;
+      file.positions.emplace_back(table.columns[x][row], table.columns[y][row], table.columns[z][row]);
+    }
+  }
+}
+
+void take_channels(const CsvTable& table, const std::vector<std::size_t>& rows, const std::vector<bool>& used,
+                   MotionFile& file) {
+  for (std::size_t column = 0; column < used.size(); ++column) {
+    if (used[column]) continue;
+    std::vector<double>& channel = file.channels[table.names[column]];
+    for (const std::size_t row : rows) channel.push_back(table.columns[column][row]);
+  }
+}
+
 }  // namespace
 
 MotionFile read_csv_motion(const std::string& path, const MotionFileOptions& options) {
@@ -125,19 +146,8 @@ MotionFile parse_csv_motion(std::string_view text, const std::string& source, co
   if (table.find(kIntervals) && !options.interval) {
     add_note(file.note, "The rows of all intervals follow each other; give interval to read one.");
   }
-  for (const PointColumns& point : points) file.names.push_back(point.name);
-  file.derived.assign(points.size(), false);
-  for (const std::size_t row : rows) {
-    for (const PointColumns& point : points) {
-      const auto& [x, y, z] = point.columns;
-      file.positions.emplace_back(table.columns[x][row], table.columns[y][row], table.columns[z][row]);
-    }
-  }
-  for (std::size_t column = 0; column < used.size(); ++column) {
-    if (used[column]) continue;
-    std::vector<double>& channel = file.channels[table.names[column]];
-    for (const std::size_t row : rows) channel.push_back(table.columns[column][row]);
-  }
+  take_points(table, rows, points, file);
+  take_channels(table, rows, used, file);
   choose_rate(table, options, file);
   choose_unit(options, file);
   choose_up(options, file);
