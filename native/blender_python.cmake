@@ -31,7 +31,7 @@ find_package(Python ${blender_python_version} EXACT REQUIRED COMPONENTS Interpre
 find_package(pybind11 2.10 CONFIG REQUIRED)
 
 file(GLOB binding_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/bindings/*.cpp)
-pybind11_add_module(reachcast_core MODULE ${binding_sources})
+pybind11_add_module(reachcast_core MODULE NO_EXTRAS ${binding_sources})
 target_include_directories(reachcast_core PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/bindings)
 target_link_libraries(reachcast_core PRIVATE reachcast_predict)
 target_compile_definitions(reachcast_core PRIVATE REACHCAST_VERSION="${PROJECT_VERSION}")

@@ -16,16 +16,14 @@ Linkage make_two_handed() {
   linkage.primary = {"primary",
                      {left_ball, left_ankle, left_knee, left_hip, l5s1, right_clavicle, right_shoulder, right_elbow, right_wrist, right_grip},
                      {right_clavicle, left_hip, right_shoulder, right_wrist, left_ankle},
-                     {{right_elbow, kElbow}, {left_knee, kKnee}},
-                     {{left_hip, 0.3}, {l5s1, 0.5}, {right_clavicle, 0.7}, {right_shoulder, 1.0}, {right_elbow, 1.0}, {right_wrist, 1.0}}};
-  linkage.parts = {{"pelvis", left_hip, l5s1, right_hip, {}, 0.4},
-                   {"chest", l5s1, right_clavicle, c7t1, {suprasternale, left_clavicle}, 0.8}};
-  linkage.limbs = {{"right leg", {right_hip, right_knee, right_ankle, right_ball}, {right_ankle}, {{right_knee, kKnee}}, {}},
+                     {{right_elbow, kElbow}, {left_knee, kKnee}}};
+  linkage.parts = {{"pelvis", left_hip, l5s1, right_hip, {}},
+                   {"chest", l5s1, right_clavicle, c7t1, {suprasternale, left_clavicle}}};
+  linkage.limbs = {{"right leg", {right_hip, right_knee, right_ankle, right_ball}, {right_ankle}, {{right_knee, kKnee}}},
                    {"left arm",
                     {left_clavicle, left_shoulder, left_elbow, left_wrist, left_grip},
                     {left_shoulder, left_wrist},
-                    {{left_elbow, kElbow}},
-                    {{left_shoulder, 1.0}, {left_elbow, 1.0}, {left_wrist, 1.0}}}};
+                    {{left_elbow, kElbow}}}};
   linkage.pointers = {{c7t1, tragion, 1}, {tragion, nasion, 1}};
   return linkage;
 }

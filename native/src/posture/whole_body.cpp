@@ -2,32 +2,17 @@
 #include "reachcast/posture/whole_body.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
+
+#include "reachcast/posture/twist.hpp"
 
 namespace reachcast {
 namespace {
 
 constexpr double kLargestLogit = 5.0;  // q within 0.7 % of its bounds
 
-Vec3 turned(const Vec3& v, double yaw) {
-  const double c = std::cos(yaw), s = std::sin(yaw);
-  return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
-}
-
-void turn_triplet(double* xyz, double yaw) {
-  const Vec3 v = turned({xyz[0], xyz[1], xyz[2]}, yaw);
-  for (int i = 0; i < 3; ++i) xyz[i] = v[i];
-}
-
 std::size_t position_in(const ChainSpec& spec, Joint joint) {
   return static_cast<std::size_t>(std::find(spec.joints.begin(), spec.joints.end(), joint) - spec.joints.begin());
-}
-
-void turn_normals(const ChainSpec& spec, const Chain& chain, double yaw, double* coordinates) {
-  for (const auto& [joint, share] : spec.turns) {
-    turn_triplet(coordinates + chain.normal_offset(position_in(spec, joint)), share * yaw);
-  }
 }
 
 /// `end` moved along the line from `start` to where the chain can just reach.
@@ -38,23 +23,20 @@ Vec3 within_reach(const Chain& chain, const Vec3& start, const Vec3& end) {
   return start + away * wanted;
 }
 
-void decode_chain(const ChainSpec& spec, const Chain& chain, double yaw, const double* coordinates, const Vec3& start,
-                  const Vec3& end, Posture& posture) {
-  std::vector<double> turned_coordinates(coordinates, coordinates + chain.coordinate_count());
-  turn_normals(spec, chain, yaw, turned_coordinates.data());
+void decode_chain(const ChainSpec& spec, const Chain& chain, const double* coordinates, const Vec3& start, const Vec3& end,
+                  Posture& posture) {
   Points points(spec.joints.size());
-  chain.decode(start, within_reach(chain, start, end), turned_coordinates, points);
+  chain.decode(start, within_reach(chain, start, end), {coordinates, chain.coordinate_count()}, points);
   for (std::size_t i = 0; i < points.size(); ++i) posture[index(spec.joints[i])] = points[i];
 }
 
-void encode_chain(const ChainSpec& spec, double yaw, const Posture& posture, double* out) {
+void encode_chain(const ChainSpec& spec, const Posture& posture, double* out) {
   const Chain chain = chain_of(spec, posture, false);
   Points points;
   for (const Joint joint : spec.joints) points.push_back(posture[index(joint)]);
   const std::span coordinates(out, chain.coordinate_count());
   chain.encode(points, coordinates);
   for (double& x : coordinates) x = std::clamp(x, -kLargestLogit, kLargestLogit);
-  turn_normals(spec, chain, -yaw, out);
 }
 
 std::size_t coordinates_of(const ChainSpec& spec) {
@@ -65,9 +47,9 @@ std::size_t coordinates_of(const ChainSpec& spec) {
 }
 
 /// The apex on its circle about a -> b, in the direction whose triangle has the stored normal; the riders follow.
-void decode_part(const RigidSpec& part, const Body& body, double yaw, const double* stored, Posture& posture) {
+void decode_part(const RigidSpec& part, const Body& body, const double* stored, Posture& posture) {
   const Vec3 a = posture[index(part.a)], b = posture[index(part.b)];
-  const Vec3 normal = turned({stored[0], stored[1], stored[2]}, part.turn * yaw);
+  const Vec3 normal(stored[0], stored[1], stored[2]);
   const Vec3 axis = glm::normalize(b - a);
   const Vec3 across = glm::cross(normal, axis);
   const double size = glm::length(across);
@@ -77,12 +59,6 @@ void decode_part(const RigidSpec& part, const Body& body, double yaw, const doub
   const Mat3 rotation = frame * glm::transpose(rest);
   posture[index(part.apex)] = a + rotation * (body.at(part.apex) - body.at(part.a));
   for (const Joint rider : part.riders) posture[index(rider)] = a + rotation * (body.at(rider) - body.at(part.a));
-}
-
-/// The hand is one rigid link from the wrist through the grip.
-void place_hand(const Body& body, Joint wrist, Joint grip, Joint front, Joint back, Posture& posture) {
-  const Vec3 along = glm::normalize(posture[index(grip)] - posture[index(wrist)]);
-  for (const Joint j : {front, back}) posture[index(j)] = posture[index(wrist)] + along * body.distance(wrist, j);
 }
 
 }  // namespace
@@ -98,11 +74,6 @@ Anchors anchors_of(const Posture& p) {
   return {{p[index(left_ball)], p[index(right_ball)]},
           {p[index(left_ankle)], p[index(right_ankle)]},
           {p[index(left_grip)], p[index(right_grip)]}};
-}
-
-double facing_yaw(const Linkage& linkage, const Anchors& anchors) {
-  const Vec3 feet = 0.5 * (anchors.ankle[0] + anchors.ankle[1]), hold = 0.5 * (anchors.grip[0] + anchors.grip[1]);
-  return std::atan2(-(hold.x - feet.x), hold.y - feet.y + linkage.facing_back_m);
 }
 
 Eigen::Index posture_coordinate_count(const Linkage& linkage) {
@@ -125,20 +96,20 @@ Chain chain_of(const ChainSpec& spec, const Posture& posture, bool limited) {
   return {std::move(lengths), std::move(pivots), std::move(limits)};
 }
 
-Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& posture) {
-  const double yaw = facing_yaw(linkage, anchors_of(posture));
+Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded) {
+  const Posture posture = twisted(recorded, -facing_yaw(anchors_of(recorded)));
   Eigen::VectorXd out(posture_coordinate_count(linkage));
   double* next = out.data();
-  encode_chain(linkage.primary, yaw, posture, next);
+  encode_chain(linkage.primary, posture, next);
   next += coordinates_of(linkage.primary);
   for (const RigidSpec& part : linkage.parts) {
     const Vec3 base = posture[index(part.b)] - posture[index(part.a)], apex = posture[index(part.apex)] - posture[index(part.a)];
     const double size = glm::length(base) * glm::length(apex);
-    const Vec3 normal = turned(size > 0.0 ? glm::cross(base, apex) / size : Vec3(0.0), -part.turn * yaw);
+    const Vec3 normal = size > 0.0 ? glm::cross(base, apex) / size : Vec3(0.0);
     for (int i = 0; i < 3; ++i) *next++ = normal[i];
   }
   for (const ChainSpec& limb : linkage.limbs) {
-    encode_chain(limb, yaw, posture, next);
+    encode_chain(limb, posture, next);
     next += coordinates_of(limb);
   }
   for (const PointerSpec& pointer : linkage.pointers) {
@@ -155,21 +126,22 @@ BodyLinkage::BodyLinkage(const Linkage& linkage, const Body& body)
   for (const ChainSpec& limb : linkage.limbs) limbs_.push_back(chain_of(limb, body.posture(), true));
 }
 
-Posture BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& anchors) const {
+Posture BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted) const {
   using enum Joint;
   Posture posture{};
-  const double yaw = facing_yaw(linkage_, anchors);
+  const double yaw = facing_yaw(wanted);
+  const Anchors anchors = with_grips_turned(wanted, -yaw);
   const double* next = coordinates.data();
-  decode_chain(linkage_.primary, primary_, yaw, next, anchors.ball[0], anchors.grip[1], posture);
+  decode_chain(linkage_.primary, primary_, next, anchors.ball[0], anchors.grip[1], posture);
   next += primary_.coordinate_count();
   for (const RigidSpec& part : linkage_.parts) {
-    decode_part(part, body_, yaw, next, posture);
+    decode_part(part, body_, next, posture);
     next += 3;
   }
   const std::map<Joint, Vec3> ends{{right_ball, anchors.ball[1]}, {left_grip, anchors.grip[0]}, {right_grip, anchors.grip[1]}};
   for (std::size_t i = 0; i < limbs_.size(); ++i) {
     const ChainSpec& spec = linkage_.limbs[i];
-    decode_chain(spec, limbs_[i], yaw, next, posture[index(spec.joints.front())], ends.at(spec.joints.back()), posture);
+    decode_chain(spec, limbs_[i], next, posture[index(spec.joints.front())], ends.at(spec.joints.back()), posture);
     next += limbs_[i].coordinate_count();
   }
   for (const PointerSpec& pointer : linkage_.pointers) {
@@ -180,9 +152,12 @@ Posture BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates
     posture[index(pointer.to)] = posture[index(pointer.from)] + frame * direction * body_.distance(pointer.from, pointer.to);
     next += 3;
   }
-  place_hand(body_, left_wrist, left_grip, left_hand_front, left_hand_back, posture);
-  place_hand(body_, right_wrist, right_grip, right_hand_front, right_hand_back, posture);
-  return posture;
+  for (const Joint joint : {left_hand_front, left_hand_back, right_hand_front, right_hand_back}) {
+    const bool left = joint == left_hand_front || joint == left_hand_back;
+    const Vec3 wrist = posture[index(left ? left_wrist : right_wrist)], grip = posture[index(left ? left_grip : right_grip)];
+    posture[index(joint)] = wrist + glm::normalize(grip - wrist) * body_.distance(left ? left_wrist : right_wrist, joint);
+  }
+  return twisted(posture, yaw);
 }
 
 }  // namespace reachcast

@@ -26,23 +26,23 @@ std::vector<std::size_t> ranks(const std::vector<double>& values) {
 std::vector<Neighbour> nearest_motions(std::span<const MotionSummary> motions, const Query& query, int k) {
   if (k < 1) throw std::invalid_argument("k is " + std::to_string(k) + "; it must be at least 1");
   std::vector<Neighbour> candidates;
-  std::vector<double> target, home, stature;
+  std::vector<double> task, stature;
   for (const MotionSummary& m : motions) {
     if (m.phase != query.phase) continue;
-    target.push_back(glm::distance(m.target, query.target));
-    home.push_back(glm::distance(m.home, query.home));
+    const double target = glm::distance(m.target, query.target), home = glm::distance(m.home, query.home);
+    task.push_back(std::hypot(target, home));
     stature.push_back(std::abs(m.subject.stature_m - query.stature_m));
-    candidates.push_back({m.id, m.origin, m.is_mirrored, 0.0, target.back(), home.back(), stature.back()});
+    candidates.push_back({m.id, m.origin, m.is_mirrored, 0.0, target, home, stature.back()});
   }
   if (candidates.empty()) {
     throw std::invalid_argument("the corpus holds " + std::to_string(motions.size()) + " motions and none of phase " +
                                 std::string(phase_name(query.phase)));
   }
-  const auto by_target = ranks(target), by_home = ranks(home), by_stature = ranks(stature);
+  const auto by_task = ranks(task), by_stature = ranks(stature);
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), 0);
   const auto nearer = [&](std::size_t a, std::size_t b) {
-    const auto sum = [&](std::size_t i) { return by_target[i] + by_home[i] + by_stature[i]; };
+    const auto sum = [&](std::size_t i) { return by_task[i] + by_stature[i]; };
     return sum(a) != sum(b) ? sum(a) < sum(b) : candidates[a].id < candidates[b].id;
   };
   const std::size_t count = std::min(candidates.size(), static_cast<std::size_t>(k));

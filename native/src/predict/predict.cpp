@@ -17,6 +17,7 @@ namespace {
 constexpr double kPause_s = 0.25;     // hands on the box before it leaves and after it stands
 constexpr double kAfter_s = 0.4;      // held pose after letting go
 constexpr double kAnticipation = 0.2; // share of the transfer over which the body gets going and comes to rest
+constexpr double kUsualBodyMassIndex = 24.0;  // kg/m^2, where the subject's mass is not known
 constexpr double kFarFromData_m = 0.25;
 constexpr double kStatureMargin_m = 0.03;
 
@@ -160,14 +161,14 @@ Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task
   motion.events = schedule(motion.duration_s, options.frame_rate);
   const EndpointPath path = path_of(code);
   const BodyLinkage linkage(two_handed_linkage(), body);
-  const Holder holder(two_handed_linkage(), body);
+  const Holder holder(two_handed_linkage(), body, subject.mass_kg.value_or(kUsualBodyMassIndex * subject.stature_m * subject.stature_m));
   Correction trunk{"trunk", 0.0, 0.0, 0};
   std::optional<std::pair<std::size_t, HoldReport>> worst;
   for (std::size_t frame = 0; frame <= motion.events.end; ++frame) {
     const BoxPose pose = box_at(task, path, path_time(motion.events, frame));
     const Anchors anchors = anchors_for(body, task, pose);
     Posture posture = linkage.decode(coordinates_at(code, posture_time(motion.events, frame)), anchors);
-    const HoldReport report = holder.hold(posture, anchors);
+    const HoldReport report = holder.hold(posture, anchors, {pose.position + Vec3(0, 0, 0.5 * task.object.height_m), task.object.mass_kg});
     if (report.shortfall_m > 0.0 && (!worst || report.shortfall_m > worst->second.shortfall_m)) worst = {frame, report};
     trunk.amount_m = std::max(trunk.amount_m, report.trunk_shift_m);
     trunk.amount_rad = std::max(trunk.amount_rad, report.trunk_turn_rad);

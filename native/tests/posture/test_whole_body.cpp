@@ -77,7 +77,7 @@ TEST(WholeBody, RandomCoordinatesKeepEverySegment) {
     anchors.grip = {hold - Vec3(0.2, 0, 0), hold + Vec3(0.2, 0, 0)};
     Posture posture = linkage.decode(x, anchors);
     ASSERT_LT(worst_length(body, posture), kTolerance_m) << trial;
-    const HoldReport report = Holder(two_handed_linkage(), body).hold(posture, anchors);
+    const HoldReport report = Holder(two_handed_linkage(), body, 70.0).hold(posture, anchors, {});
     ASSERT_LT(worst_length(body, posture), kTolerance_m) << trial;
     if (report.shortfall_m > 0.0) continue;
     for (const int side : {0, 1}) {
@@ -98,7 +98,7 @@ TEST(WholeBody, TurningTheTaskTurnsTheUpperBody) {
   const Vec3 half(0.2 * 0.4, -0.2 * 0.9, 0.0);
   right.grip = {aside - half, aside + half};
   Posture turned = linkage.decode(x, right);
-  (void)Holder(two_handed_linkage(), body).hold(turned, right);
+  (void)Holder(two_handed_linkage(), body, 70.0).hold(turned, right, {});
   const Vec3 across = turned[index(right_shoulder)] - turned[index(left_shoulder)];
   EXPECT_LT(across.y, -0.1) << "the right shoulder goes back when the hands go right";
 }
@@ -107,7 +107,7 @@ TEST(Hold, LeavesAReachablePostureAlone) {
   const Body body = Body::from_posture(bent_posture(Body::from_stature(1.7)), 1.7);
   Posture posture = body.posture();
   const Posture before = posture;
-  const HoldReport report = Holder(two_handed_linkage(), body).hold(posture, anchors_of(posture));
+  const HoldReport report = Holder(two_handed_linkage(), body, 70.0).hold(posture, anchors_of(posture), {});
   EXPECT_EQ(report.shortfall_m, 0.0);
   EXPECT_LT(report.trunk_shift_m, 0.01);  // knees of a stand are straighter than the limit allows
   for (std::size_t j = 0; j < kJointCount; ++j) EXPECT_LT(glm::distance(posture[j], before[j]), 0.08);
@@ -118,7 +118,7 @@ TEST(Hold, SaysByHowMuchAnAnchorIsOutOfReach) {
   Posture posture = body.posture();
   Anchors anchors = anchors_of(posture);
   for (Vec3& grip : anchors.grip) grip += Vec3(0, 0, 3.0);
-  const HoldReport report = Holder(two_handed_linkage(), body).hold(posture, anchors);
+  const HoldReport report = Holder(two_handed_linkage(), body, 70.0).hold(posture, anchors, {});
   EXPECT_GT(report.shortfall_m, 0.2);
 }
 

@@ -17,7 +17,6 @@ struct ChainSpec {
   std::vector<Joint> joints;                            ///< first to last
   std::vector<Joint> pivots;                            ///< order of precedence
   std::vector<std::pair<Joint, FlexionLimit>> limits;   ///< hinges
-  std::vector<std::pair<Joint, double>> turns;          ///< see Linkage::facing_back_m
 };
 
 /// A rigid part of which two joints are placed by a chain; one angle about the line through them places `apex`, and
@@ -26,7 +25,6 @@ struct RigidSpec {
   std::string_view name;
   Joint a, b, apex;
   std::vector<Joint> riders;
-  double turn = 0.0;
 };
 
 /// A link with a free end, as a direction in the frame of a rigid part.
@@ -42,9 +40,6 @@ struct Linkage {
   std::vector<ChainSpec> limbs;
   std::vector<PointerSpec> pointers;
 
-  /// A person who reaches to the side turns. Normals of planes are kept relative to the direction from a point this
-  /// far behind the feet to the hold point, each by its own share ("turn": 0 for what the floor holds, 1 for the arms).
-  double facing_back_m = 0.3;
 };
 
 /// Two hands on one object, both feet on the floor. The 2004 paper's chains (p. 547-549) with three differences:

@@ -20,8 +20,8 @@ struct Anchors {
 /// Number of coordinates of a posture under `linkage`.
 [[nodiscard]] Eigen::Index posture_coordinate_count(const Linkage& linkage);
 
-/// Coordinates of a posture of anyone: link lengths are those of the posture itself. Logits are clamped to +-5, so
-/// that one recorded extreme does not rule a mean.
+/// Coordinates of a posture of anyone, untwisted (twist.hpp) to face its hold point: link lengths are those of the
+/// posture itself. Logits are clamped to +-5, so that one recorded extreme does not rule a mean.
 [[nodiscard]] Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& posture);
 
 /// The chain with the lengths it has in `posture` (limits of the linkage apply when `limited`).
@@ -46,9 +46,6 @@ class BodyLinkage {
   Chain primary_;
   std::vector<Chain> limbs_;
 };
-
-/// Turn about the vertical, radians, from facing forward (y) to facing the hold point of the anchors.
-[[nodiscard]] double facing_yaw(const Linkage& linkage, const Anchors& anchors);
 
 [[nodiscard]] Anchors anchors_of(const Posture& posture);
 

@@ -27,9 +27,10 @@ struct Neighbour {
   double stature_difference_m = 0.0;
 };
 
-/// The k motions of the wanted phase with the smallest rank sum: rank of the target's distance + rank of the stature's
-/// difference (p. 549) + rank of the home's distance. The paper's boxes all started from one place; recordings of
-/// others do not. Equal values share the smallest rank; equal sums go by id. Fewer than k motions: all of them.
+/// The k motions of the wanted phase with the smallest rank sum: rank of the task's distance + rank of the stature's
+/// difference (p. 549). The task's distance is the root of the squared distances of targets and homes; the paper's
+/// boxes all started from one place, where it is the target's distance alone. Equal values share the smallest rank;
+/// equal sums go by id. Fewer than k motions: all of them.
 /// Throws std::invalid_argument when k < 1 or the phase has no motion.
 [[nodiscard]] std::vector<Neighbour> nearest_motions(std::span<const MotionSummary> motions, const Query& query, int k);
 
