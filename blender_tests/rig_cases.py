@@ -15,7 +15,6 @@ from reachcast.rigs.rotations import normalise
 from reachcast.rigs.skeleton import Skeleton, rest_bend, rest_hinge
 from reachcast.scene.mannequin import build_mannequin
 from reachcast.scene.measure import sample
-from reachcast.scene.read_rig import read_rig
 
 #: Degrees that a segment swings about each of its axes in a random motion.
 _SWING = {"pelvis": 25, "spine": 30, "neck": 20, "head": 25, "clavicle": 12, "upper_arm": 55, "forearm": 40,
@@ -69,15 +68,15 @@ def _edit(rig: bpy.types.Object, change: Callable[[bpy.types.ArmatureEditBones],
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def random_motion(rig: bpy.types.Object, seed: int, frames: int) -> np.ndarray:
+def random_motion(rig: bpy.types.Object, skeleton: Skeleton, seed: int, frames: int) -> np.ndarray:
     """Joint centres (frames, 27, 3) in the world of `rig` posed at random but smoothly; the rig is then at rest again.
 
     The poses are set and read through Blender. Pelvis and chest stay rigid because only their own bones are turned;
     elbows and knees turn about their hinges.
     """
-    skeleton, random = read_rig(rig), np.random.default_rng(seed)
+    random = np.random.default_rng(seed)
     swings = {segment: (random.uniform(-1, 1, (3, 2)), _SWING[segment.split(".")[0]]) for segment in skeleton.segments
-              if segment.split(".")[0] in _SWING}
+              if segment.split(".")[0] in _SWING}  # the chest is left out: it turns with the spine
     joints = []
     for frame in range(frames):
         phase = np.array([math.sin(2.0 * math.pi * frame / frames), math.cos(2.0 * math.pi * frame / frames)])

@@ -30,13 +30,13 @@ class REACHCAST_PT_lift(_Tab, bpy.types.Panel):
             _sentence_part(column, settings, words, name)
         blocking = [need for need in needs(settings) if need.reason]
         for need in blocking:
-            _lines(self.layout, context, f"{need.name}: {need.reason}", "ERROR")
+            _lines(self.layout, context, need.reason, "ERROR")
         row = self.layout.row()
         row.scale_y = 1.4
         row.operator(REACHCAST_OT_predict_motion.bl_idname, icon="ACTION")
         problem = context.window_manager.reachcast_problem
         if problem:
-            _lines(self.layout, context, problem, "CANCEL")
+            _lines(self.layout, context, f"{problem[0].upper()}{problem[1:]}.", "CANCEL")
         elif not blocking:
             _lines(self.layout, context, f"Ready: starts at frame {context.scene.frame_current}.", "CHECKMARK")
 
@@ -50,7 +50,7 @@ class REACHCAST_PT_subject(_Tab, bpy.types.Panel):
         column = self.layout.column(align=True)
         _sentence_part(column, settings, "Stature", "stature")
         if settings.stature == 0.0:
-            _words(column, "", "0: the rig's own height")
+            _words(column, "", "the rig's own")
         _sentence_part(column, settings, "Sex", "sex")
         _sentence_part(column, settings, "Bones", "bone_map")
 

@@ -19,7 +19,7 @@ def _is_armature(_settings: bpy.types.PropertyGroup, item: bpy.types.Object) -> 
     return item.type == "ARMATURE"
 
 
-def _is_place(settings: bpy.types.PropertyGroup, item: bpy.types.Object) -> bool:
+def _is_place(_settings: bpy.types.PropertyGroup, item: bpy.types.Object) -> bool:
     return item.type == "EMPTY"
 
 

@@ -20,16 +20,18 @@ Turns = dict[str, Array]
 
 #: Joint centre -> the segment whose bone carries it as a fixed point.
 CARRIERS: dict[str, str] = {
-    "l5s1": "spine", "c7t1": "neck", "suprasternale": "chest", "tragion": "head", "nasion": "head",
+    "l5s1": "spine", "c7t1": "neck", "suprasternale": "chest", "tragion": "neck", "nasion": "head",
     **{f"{word}_{joint}": f"{segment}.{side}" for side, word in SIDES for joint, segment in (
         ("ball", "foot"), ("ankle", "foot"), ("knee", "shin"), ("hip", "thigh"), ("clavicle", "clavicle"),
         ("shoulder", "upper_arm"), ("elbow", "forearm"), ("wrist", "hand"), ("hand_front", "hand"),
         ("hand_back", "hand"), ("grip", "hand"))},
 }
 
-#: The joints that a posed rig passes through exactly. Front and back of the hands are not among them: the palms are
-#: turned to face each other, so the roll of a hand is this module's choice, not the joints'.
-EXACT_JOINTS = tuple(index for index, name in enumerate(JOINTS) if not name.endswith(("hand_front", "hand_back")))
+#: The joints that a posed rig passes through exactly. Of the nasion only the direction is kept, for the head bone does
+#: not turn about the tragion; the front and back of the hands give way to the palms, which are turned to face each
+#: other.
+EXACT_JOINTS = tuple(index for index, name in enumerate(JOINTS)
+                     if name != "nasion" and not name.endswith(("hand_front", "hand_back")))
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,9 @@ from .rotations import Array, dot, normalise
 MAX_LEAN_DEG = 60.0
 #: The lowest bone of the feet is at most this part of the height above the floor.
 _SOLE = 0.05
-#: From tragion to nasion and from grip to the front of the hand, as parts of the rig's height.
-_NASION_FORWARD, _NASION_UP, _HAND_HALF_WIDTH = 0.055, 0.015, 0.023
+#: (forward, up) of a person who stands and looks ahead, as parts of the height; as native/src/body has them.
+_C7T1_TO_TRAGION, _TRAGION_TO_NASION = (0.034, 0.074), (0.054, 0.008)
+_HAND_HALF_WIDTH = 0.023  #: from grip to the front of the hand, as a part of the height
 
 
 @dataclass(frozen=True)
@@ -139,7 +140,6 @@ def _main_joints(bones: Bones, bone_map: BoneMap, segments: dict[str, int]) -> A
         joints[INDEX[f"{word}_grip"]] = (1.0 - grip.along) * heads[bone] + grip.along * tails[bone]
     joints[INDEX["l5s1"]] = heads[segments["spine"]]
     joints[INDEX["c7t1"]] = heads[segments["neck"]]
-    joints[INDEX["tragion"]] = heads[segments["head"]]
     joints[INDEX["suprasternale"]] = 0.5 * (joints[INDEX["left_clavicle"]] + joints[INDEX["right_clavicle"]])
     return joints
 
@@ -161,7 +161,7 @@ def _body_axes(name: str, joints: Array) -> Array:
 
 def _check_lengths(name: str, joints: Array, height: float) -> None:
     """Every link the motion turns needs a length; a millionth of the height is none."""
-    links = [("l5s1", "c7t1"), ("c7t1", "tragion"), ("left_hip", "right_hip")]
+    links = [("l5s1", "c7t1"), ("left_hip", "right_hip")]
     for _, word in SIDES:
         links += [(f"{word}_{a}", f"{word}_{b}") for a, b in (
             ("clavicle", "shoulder"), ("shoulder", "elbow"), ("elbow", "wrist"), ("wrist", "grip"),
@@ -179,8 +179,10 @@ def _check_lengths(name: str, joints: Array, height: float) -> None:
 
 
 def _add_derived_joints(joints: Array, axes: Array, height: float) -> None:
-    """Nasion from tragion; front and back of the hand either side of the grip, the front towards the thumb."""
-    joints[INDEX["nasion"]] = joints[INDEX["tragion"]] + height * (_NASION_FORWARD * axes[1] + _NASION_UP * axes[2])
+    """Head: where a person's would be who looks ahead as the rig does, whichever way its neck bones happen to lean.
+    Hand: front and back either side of the grip, the front towards the thumb."""
+    for start, end, (forward, up) in (("c7t1", "tragion", _C7T1_TO_TRAGION), ("tragion", "nasion", _TRAGION_TO_NASION)):
+        joints[INDEX[end]] = joints[INDEX[start]] + height * (forward * axes[1] + up * axes[2])
     for side, word in SIDES:
         wrist, grip = joints[INDEX[f"{word}_wrist"]], joints[INDEX[f"{word}_grip"]]
         along = normalise(grip - wrist)

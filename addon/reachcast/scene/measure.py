@@ -102,7 +102,7 @@ def measure_lift(samples: Samples, skeleton: Skeleton, events: dict[str, int], f
     Without a sampled box the three box measures are NaN.
     """
     landing, grasp, held = _box_errors(samples, events, shape, shelf)
-    twists = [angle for side, _ in SIDES for angle in _forearm_twists(samples, skeleton, side)]
+    twists = [angle for side, _ in SIDES for angle in forearm_twists(samples, skeleton, side)]
     return LiftMeasures(
         landing, grasp, held, foot_slip(samples, "left"), float(np.abs(samples.stretch).max()),
         min(float(elbow_flexion(samples, skeleton, side).min()) for side, _ in SIDES),
@@ -153,7 +153,7 @@ def fastest_joint(samples: Samples, skeleton: Skeleton, frame_rate: float) -> fl
     return fastest
 
 
-def _forearm_twists(samples: Samples, skeleton: Skeleton, side: str) -> tuple[Array, Array]:
+def forearm_twists(samples: Samples, skeleton: Skeleton, side: str) -> tuple[Array, Array]:
     """(F,) radians each: forearm on upper arm, hand on forearm, about the forearm."""
     word = dict(SIDES)[side]
     along = normalise(samples.joints[:, INDEX[f"{word}_wrist"]] - samples.joints[:, INDEX[f"{word}_elbow"]])

@@ -72,8 +72,9 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
     """Predicts how `rig` carries `box` to `shelf` and writes a new Action on the rig, and one on the box if given.
 
     corpus: a path or an opened reachcast_core.Corpus; None takes the one that ships. stature in metres (None: the
-    rig's own height), age in years, mass in kg. start_frame: None starts at the scene's current frame. Other options
-    go to reachcast_core.predict. Everything is read and checked first: on ValueError nothing has been written.
+    rig's own height), age in years, mass in kg. Objects are taken where they are in the scene's current frame, and the
+    motion starts there or at start_frame. Other options go to reachcast_core.predict. Everything is read and checked
+    first: on ValueError nothing has been written.
     """
     scene = scene or bpy.context.scene
     core = native.core()

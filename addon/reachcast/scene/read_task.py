@@ -10,7 +10,7 @@ import numpy as np
 
 from ..rigs.rotations import Array
 from ..rigs.skeleton import Skeleton
-from .transforms import placement
+from .transforms import MAX_UNEVEN, placement
 
 HANDLE_HEIGHT = "reachcast_handle_height"   #: custom property of a box, metres above its base
 GRIP_DISTANCE = "reachcast_grip_distance"   #: custom property of a box, metres between the centres of the two grips
@@ -64,9 +64,9 @@ def read_lift(skeleton: Skeleton, shelf: bpy.types.Object, home: bpy.types.Objec
         rotation = start.rotation
         place = start.origin - rotation @ np.array(shape.origin_offset)
     else:
-        return Lift(_in_front(skeleton, shape), skeleton.to_body(target.origin), 0.0, target_yaw, shape, False)
+        return Lift(_in_front(skeleton, shape), _placed(skeleton, target.origin), 0.0, target_yaw, shape, False)
     home_yaw, half_turn = _half_turns(_yaw(skeleton, rotation))
-    return Lift(skeleton.to_body(place), skeleton.to_body(target.origin), home_yaw, target_yaw, shape, half_turn)
+    return Lift(_placed(skeleton, place), _placed(skeleton, target.origin), home_yaw, target_yaw, shape, half_turn)
 
 
 def read_box(box: bpy.types.Object) -> BoxShape:
@@ -98,6 +98,10 @@ def refuse_held_box(box: bpy.types.Object, rig: bpy.types.Object) -> None:
     if any(box.delta_location) or any(box.delta_rotation_euler) or tuple(box.delta_scale) != (1.0, 1.0, 1.0) \
             or tuple(box.delta_rotation_quaternion) != (1.0, 0.0, 0.0, 0.0):
         raise ValueError(f"Box '{box.name}' has delta transforms; clear them first")
+    above = np.array(box.matrix_world @ box.matrix_basis.inverted_safe(), dtype=float)[:3, :3]
+    lengths = np.linalg.norm(above, axis=0)
+    if not np.all(np.isfinite(lengths)) or np.ptp(lengths) > MAX_UNEVEN * np.max(lengths):
+        raise ValueError(f"Box '{box.name}' has a parent that is scaled unevenly; give the parent an even scale")
     parent = box.parent
     while parent is not None:
         if parent == rig:
@@ -115,6 +119,11 @@ def _number(item: bpy.types.Object, name: str, default: float, least: float, mos
 def _default_box() -> BoxShape:
     width, depth, height = _DEFAULT_SIZE
     return BoxShape(width, depth, height, 0.5 * height, width + 2.0 * _HALF_HAND, DEFAULT_MASS)
+
+
+def _placed(skeleton: Skeleton, place: Array) -> Array:
+    """A world point in the body frame, without the noise of single precision (a tenth of a micrometre)."""
+    return np.round(skeleton.to_body(place), 7) + 0.0
 
 
 def _in_front(skeleton: Skeleton, shape: BoxShape) -> Array:
