@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kMargin_m = 1e-4;     // limbs are brought this far inside their reach
 constexpr double kTolerance_m = 1e-6;  // when the trunk's search is done
-constexpr int kMostRounds = 400;
+constexpr int kShiftRounds = 60;
+constexpr int kTurnRounds = 300;
+constexpr double kMostTurn_rad = 0.6;
 constexpr int kBalanceRounds = 12;
 constexpr double kMassThatMoves = 0.75;  // share of the weight that goes with the trunk when the hands and feet stay
 
@@ -47,101 +49,83 @@ constexpr std::array kTrunk{Joint::left_hip,      Joint::right_hip,      Joint::
                             Joint::suprasternale, Joint::left_clavicle,  Joint::right_clavicle, Joint::tragion,
                             Joint::nasion};
 
-ChainSpec leg(Joint ankle, Joint knee, Joint hip, const FlexionLimit& limit) {
-  return {"leg", {hip, knee, ankle}, {knee}, {{knee, limit}}};
+Vec3 mean(const std::vector<Vec3>& values) {
+  Vec3 sum(0.0);
+  for (const Vec3& v : values) sum += v;
+  return values.empty() ? sum : sum / static_cast<double>(values.size());
 }
 
-const ChainSpec& limb_named(const Linkage& linkage, std::string_view name) {
-  return *std::find_if(linkage.limbs.begin(), linkage.limbs.end(), [&](const ChainSpec& s) { return s.name == name; });
-}
-
-ChainSpec mirrored_spec(ChainSpec spec) {
-  for (Joint& j : spec.joints) j = mirrored(j);
-  for (Joint& j : spec.pivots) j = mirrored(j);
-  for (auto& [j, limit] : spec.limits) j = mirrored(j);
-  return spec;
-}
+double angle_of(const Mat3& r) { return std::acos(std::clamp(0.5 * (r[0][0] + r[1][1] + r[2][2] - 1.0), -1.0, 1.0)); }
 
 }  // namespace
 
-Holder::Holder(const Linkage& linkage, const Body& body, double body_mass_kg)
-    : limbs_([&]() -> std::array<Limb, 4> {
-        const FlexionLimit knee = limb_named(linkage, "right leg").limits.front().second;
-        const ChainSpec right_leg = leg(Joint::right_ankle, Joint::right_knee, Joint::right_hip, knee);
-        const ChainSpec left_arm = limb_named(linkage, "left arm");
-        const auto limb = [&](const ChainSpec& spec) { return Limb{spec, chain_of(spec, body.posture(), true)}; };
-        return {limb(mirrored_spec(right_leg)), limb(right_leg), limb(left_arm), limb(mirrored_spec(left_arm))};
-      }()),
-      body_mass_kg_(body_mass_kg) {}
+Holder::Holder(const Body& body, double body_mass_kg) : body_mass_kg_(body_mass_kg) {
+  for (const ChainSpec& spec : holding_limbs()) limbs_.push_back(chain_of(spec, body.posture(), true));
+}
 
-HoldReport Holder::hold(Posture& posture, const Anchors& anchors, const Load& load) const {
+Posture Holder::hold(const Decoded& decoded, const Anchors& anchors, const Load& load, HoldReport& report) const {
   const Corners ends{anchors.ankle[0], anchors.ankle[1], anchors.grip[0], anchors.grip[1]};
-  const Coordinates coordinates = limb_coordinates(posture);
-  Corners before, now;
-  for (std::size_t i = 0; i < 4; ++i) before[i] = posture[index(limbs_[i].spec.joints.front())];
-  now = before;
-  HoldReport report;
-  const Posture decoded = posture;
+  Posture posture = decoded.posture;
+  Corners before;
+  for (std::size_t i = 0; i < kLimbCount; ++i) before[i] = posture[index(holding_limbs()[i].joints.front())];
+  Corners now = before;
   for (int round = 0; round < kBalanceRounds; ++round) {
-    bring_within_reach(now, ends, report);
+    bring_within_reach(before, now, ends, report);
     const RigidMotion motion = nearest_rigid_motion(before, now);
-    for (const Joint j : kTrunk) posture[index(j)] = motion(decoded[index(j)]);
-    span_limbs(posture, ends, coordinates);
+    for (const Joint j : kTrunk) posture[index(j)] = motion(decoded.posture[index(j)]);
+    span_limbs(decoded, ends, posture);
     const Vec3 excess = beyond_support(centre_of_mass(posture, body_mass_kg_, load), anchors);
     report.unbalanced_m = glm::length(excess);
-    report.trunk_shift_m = glm::distance(decoded[index(Joint::l5s1)], posture[index(Joint::l5s1)]);
-    const double trace = motion.rotation[0][0] + motion.rotation[1][1] + motion.rotation[2][2];
-    report.trunk_turn_rad = std::acos(std::clamp(0.5 * (trace - 1.0), -1.0, 1.0));
+    report.trunk_shift_m = glm::distance(decoded.posture[index(Joint::l5s1)], posture[index(Joint::l5s1)]);
+    report.trunk_turn_rad = angle_of(motion.rotation);
     if (report.unbalanced_m < kTolerance_m || report.shortfall_m > 0.0) break;
     if (round + 1 < kBalanceRounds) {
       for (Vec3& root : now) root -= excess / kMassThatMoves;
     }
   }
-  for (std::size_t side = 0; side < 2; ++side) {  // the foot goes with its ankle
-    const Vec3 missed = posture[index(limbs_[side].spec.joints.back())] - ends[side];
-    posture[index(side == 0 ? Joint::left_ball : Joint::right_ball)] = anchors.ball[side] + missed;
+  for (const std::size_t side : {0u, 1u}) {  // the foot goes with its ankle
+    const Joint ball = side == 0 ? Joint::left_ball : Joint::right_ball;
+    posture[index(ball)] = anchors.ball[side] + posture[index(holding_limbs()[side].joints.back())] - ends[side];
   }
-  return report;
+  return posture;
 }
 
-/// The limbs' own coordinates, before anything moves.
-Holder::Coordinates Holder::limb_coordinates(const Posture& posture) const {
-  Coordinates coordinates;
-  for (std::size_t i = 0; i < 4; ++i) {
-    Points points;
-    for (const Joint j : limbs_[i].spec.joints) points.push_back(posture[index(j)]);
-    coordinates[i].resize(limbs_[i].chain.coordinate_count());
-    limbs_[i].chain.encode(points, coordinates[i]);
-  }
-  return coordinates;
-}
-
-/// Every root is pulled to where its limb just reaches; the trunk follows as a rigid body; again, until all reach.
-void Holder::bring_within_reach(Corners& roots, const Corners& ends, HoldReport& report) const {
-  for (int round = 0; round < kMostRounds; ++round) {
+/// Every root is pulled to where its limb just reaches and the trunk follows, again and again until all reach: at first
+/// without turning, then as a rigid body.
+void Holder::bring_within_reach(const Corners& before, Corners& roots, const Corners& ends, HoldReport& report) const {
+  for (int round = 0; round < kShiftRounds + kTurnRounds; ++round) {
     Corners wanted;
+    std::vector<Vec3> pulls;
     double worst = 0.0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      wanted[i] = brought_within(limbs_[i].chain.reach(), roots[i], ends[i]);
+    for (std::size_t i = 0; i < kLimbCount; ++i) {
+      wanted[i] = brought_within(limbs_[i].reach(), roots[i], ends[i]);
       const double gap = glm::distance(wanted[i], roots[i]);
-      if (gap > worst) worst = gap, report.shortfall_from = limbs_[i].spec.joints.front();
+      if (gap > 0.0) pulls.push_back(wanted[i] - roots[i]);
+      if (gap > worst) worst = gap, report.shortfall_from = holding_limbs()[i].joints.front();
     }
     report.shortfall_m = worst < kMargin_m ? 0.0 : worst;
     if (worst < kTolerance_m) return;
+    if (round < kShiftRounds) {
+      for (Vec3& root : roots) root += mean(pulls);
+      continue;
+    }
     const RigidMotion step = nearest_rigid_motion(roots, wanted);
-    for (Vec3& p : roots) p = step(p);
+    Corners moved = roots;
+    for (Vec3& root : moved) root = step(root);
+    if (angle_of(nearest_rigid_motion(before, moved).rotation) > kMostTurn_rad) return;
+    roots = moved;
   }
 }
 
-void Holder::span_limbs(Posture& posture, const Corners& ends, const Coordinates& coordinates) const {
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Limb& limb = limbs_[i];
-    const Vec3 root = posture[index(limb.spec.joints.front())];
+void Holder::span_limbs(const Decoded& decoded, const Corners& ends, Posture& posture) const {
+  for (std::size_t i = 0; i < kLimbCount; ++i) {
+    const ChainSpec& spec = holding_limbs()[i];
+    const Vec3 root = posture[index(spec.joints.front())];
     const double across = glm::distance(root, ends[i]);
-    const double wanted = std::clamp(across, limb.chain.reach().lo, limb.chain.reach().hi);
-    Points points(limb.spec.joints.size());
-    limb.chain.decode(root, across == wanted ? ends[i] : root + (ends[i] - root) * (wanted / across), coordinates[i], points);
-    for (std::size_t j = 0; j < points.size(); ++j) posture[index(limb.spec.joints[j])] = points[j];
+    const double wanted = std::clamp(across, limbs_[i].reach().lo, limbs_[i].reach().hi);
+    Points points(spec.joints.size());
+    limbs_[i].decode(root, across == wanted ? ends[i] : root + (ends[i] - root) * (wanted / across), decoded.limbs[i], points);
+    for (std::size_t j = 0; j < points.size(); ++j) posture[index(spec.joints[j])] = points[j];
   }
 }
 

@@ -19,20 +19,14 @@ Vec3 turned(const Vec3& v, double yaw) {
   return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
 }
 
-/// The limb of `before` between the ends it has in `after`, its planes turned by `yaw`.
-void respan(const ChainSpec& spec, const Posture& before, double yaw, Posture& after) {
+/// The limb between the ends it has in `after`.
+void respan(std::size_t limb, const Posture& before, double yaw, Posture& after) {
+  const ChainSpec& spec = holding_limbs()[limb];
   const Chain chain = chain_of(spec, before, false);
-  Points points;
-  for (const Joint joint : spec.joints) points.push_back(before[index(joint)]);
-  std::vector<double> coordinates(chain.coordinate_count());
-  chain.encode(points, coordinates);
-  for (std::size_t joint = 1; joint < chain.links(); ++joint) {
-    double* normal = &coordinates[chain.normal_offset(joint)];
-    const Vec3 v = turned({normal[0], normal[1], normal[2]}, yaw);
-    for (int i = 0; i < 3; ++i) normal[i] = v[i];
-  }
+  const std::vector<double> coordinates = turned_limb_coordinates(limb, before, yaw);
   const Vec3 start = after[index(spec.joints.front())], end = after[index(spec.joints.back())];
   const double across = glm::distance(start, end), wanted = std::clamp(across, chain.reach().lo, chain.reach().hi);
+  Points points(spec.joints.size());
   chain.decode(start, across > 1e-9 ? start + (end - start) * (wanted / across) : start + Vec3(0, 0, -wanted), coordinates, points);
   for (std::size_t i = 0; i < points.size(); ++i) after[index(spec.joints[i])] = points[i];
 }
@@ -61,25 +55,35 @@ Posture twisted(const Posture& posture, double yaw_rad) {
     out[index(j)] = out[index(l5s1)] + turned(posture[index(j)] - waist, kChestShare * yaw_rad);
   }
   for (const Joint j : {left_grip, right_grip}) out[index(j)] = feet + turned(posture[index(j)] - feet, yaw_rad);
-  respan({"left leg", {left_hip, left_knee, left_ankle}, {left_knee}, {}}, posture, kKneeShare * yaw_rad, out);
-  respan({"right leg", {right_hip, right_knee, right_ankle}, {right_knee}, {}}, posture, kKneeShare * yaw_rad, out);
+  for (std::size_t limb = 0; limb < kLimbCount; ++limb) respan(limb, posture, yaw_rad, out);
   for (const Joint j : {left_ball, right_ball}) {  // the foot goes with an ankle that a leg could not hold
     const Joint ankle = j == left_ball ? left_ankle : right_ankle;
     out[index(j)] = posture[index(j)] + out[index(ankle)] - posture[index(ankle)];
   }
   for (const bool left : {true, false}) {
     const auto side = [&](Joint right) { return left ? mirrored(right) : right; };
-    respan({"arm",
-            {side(right_clavicle), side(right_shoulder), side(right_elbow), side(right_wrist), side(right_grip)},
-            {side(right_shoulder), side(right_wrist)},
-            {}},
-           posture, yaw_rad, out);
     const Vec3 wrist = out[index(side(right_wrist))], along = glm::normalize(out[index(side(right_grip))] - wrist);
     for (const Joint j : {side(right_hand_front), side(right_hand_back)}) {
       out[index(j)] = wrist + along * glm::distance(posture[index(j)], posture[index(side(right_wrist))]);
     }
   }
   return out;
+}
+
+std::vector<double> turned_limb_coordinates(std::size_t limb, const Posture& posture, double yaw_rad) {
+  const ChainSpec& spec = holding_limbs()[limb];
+  const Chain chain = chain_of(spec, posture, false);
+  Points points;
+  for (const Joint joint : spec.joints) points.push_back(posture[index(joint)]);
+  std::vector<double> coordinates(chain.coordinate_count());
+  chain.encode(points, coordinates);
+  const double share = limb < 2 ? kKneeShare : 1.0;
+  for (std::size_t joint = 1; joint < chain.links(); ++joint) {
+    double* normal = &coordinates[chain.normal_offset(joint)];
+    const Vec3 v = turned({normal[0], normal[1], normal[2]}, share * yaw_rad);
+    for (int i = 0; i < 3; ++i) normal[i] = v[i];
+  }
+  return coordinates;
 }
 
 }  // namespace reachcast

@@ -69,6 +69,28 @@ Mat3 triangle_frame(const Vec3& a, const Vec3& b, const Vec3& apex) {
   return {x, glm::cross(z, x), z};
 }
 
+const std::array<ChainSpec, kLimbCount>& holding_limbs() {
+  using enum Joint;
+  static const auto limbs = [] {
+    const auto limit_of = [](Joint joint) {
+      for (const ChainSpec& spec : two_handed_linkage().limbs) {
+        if (spec.limits.front().first == joint) return spec.limits.front().second;
+      }
+      return FlexionLimit{};
+    };
+    const FlexionLimit knee = limit_of(right_knee), elbow = limit_of(left_elbow);
+    const auto leg = [&](Joint hip, Joint bend, Joint ankle) { return ChainSpec{"leg", {hip, bend, ankle}, {bend}, {{bend, knee}}}; };
+    const auto arm = [&](Joint root, Joint shoulder, Joint bend, Joint wrist, Joint grip) {
+      return ChainSpec{"arm", {root, shoulder, bend, wrist, grip}, {shoulder, wrist}, {{bend, elbow}}};
+    };
+    return std::array<ChainSpec, kLimbCount>{
+        leg(left_hip, left_knee, left_ankle), leg(right_hip, right_knee, right_ankle),
+        arm(left_clavicle, left_shoulder, left_elbow, left_wrist, left_grip),
+        arm(right_clavicle, right_shoulder, right_elbow, right_wrist, right_grip)};
+  }();
+  return limbs;
+}
+
 Anchors anchors_of(const Posture& p) {
   using enum Joint;
   return {{p[index(left_ball)], p[index(right_ball)]},
@@ -126,7 +148,7 @@ BodyLinkage::BodyLinkage(const Linkage& linkage, const Body& body)
   for (const ChainSpec& limb : linkage.limbs) limbs_.push_back(chain_of(limb, body.posture(), true));
 }
 
-Posture BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted) const {
+Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted) const {
   using enum Joint;
   Posture posture{};
   const double yaw = facing_yaw(wanted);
@@ -157,7 +179,10 @@ Posture BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates
     const Vec3 wrist = posture[index(left ? left_wrist : right_wrist)], grip = posture[index(left ? left_grip : right_grip)];
     posture[index(joint)] = wrist + glm::normalize(grip - wrist) * body_.distance(left ? left_wrist : right_wrist, joint);
   }
-  return twisted(posture, yaw);
+  Decoded decoded;
+  for (std::size_t i = 0; i < kLimbCount; ++i) decoded.limbs[i] = turned_limb_coordinates(i, posture, yaw);
+  decoded.posture = twisted(posture, yaw);
+  return decoded;
 }
 
 }  // namespace reachcast

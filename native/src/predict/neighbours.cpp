@@ -9,6 +9,8 @@
 namespace reachcast {
 namespace {
 
+constexpr double kOtherEnd = 0.25;  // weight of the distance at the other end of the motion
+
 /// Rank of every value, smallest 0; equal values share the smallest rank.
 std::vector<std::size_t> ranks(const std::vector<double>& values) {
   std::vector<double> sorted = values;
@@ -23,14 +25,15 @@ std::vector<std::size_t> ranks(const std::vector<double>& values) {
 
 }  // namespace
 
-std::vector<Neighbour> nearest_motions(std::span<const MotionSummary> motions, const Query& query, int k) {
+std::vector<Neighbour> nearest_motions(std::span<const MotionSummary> motions, const Query& query, End end,
+                                       int k) {
   if (k < 1) throw std::invalid_argument("k is " + std::to_string(k) + "; it must be at least 1");
   std::vector<Neighbour> candidates;
   std::vector<double> task, stature;
   for (const MotionSummary& m : motions) {
     if (m.phase != query.phase) continue;
     const double target = glm::distance(m.target, query.target), home = glm::distance(m.home, query.home);
-    task.push_back(std::hypot(target, home));
+    task.push_back(end == End::target ? std::hypot(target, kOtherEnd * home) : std::hypot(home, kOtherEnd * target));
     stature.push_back(std::abs(m.subject.stature_m - query.stature_m));
     candidates.push_back({m.id, m.origin, m.is_mirrored, 0.0, target, home, stature.back()});
   }

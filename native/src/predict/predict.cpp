@@ -43,7 +43,10 @@ void check(const Subject& subject, const PredictOptions& options) {
 Vec3 hold_point(const Box& box, const Vec3& place) { return place + Vec3(0, 0, box.handle_height_m); }
 
 /// Weighted mean of the neighbours' codes; paths are carried onto the wanted axis first.
-MotionCode mean_code(const std::vector<StoredMotion>& stored, const std::vector<Neighbour>& neighbours, const Query& query) {
+MotionCode mean_code(const Corpus& corpus, const std::vector<Neighbour>& neighbours, const Query& query) {
+  std::vector<std::int64_t> ids;
+  for (const Neighbour& n : neighbours) ids.push_back(n.id);
+  const std::vector<StoredMotion> stored = corpus.load(ids);
   MotionCode mean;
   mean.phase = query.phase;
   mean.home = query.home;
@@ -60,6 +63,26 @@ MotionCode mean_code(const std::vector<StoredMotion>& stored, const std::vector<
     mean.duration_s += neighbours[i].weight * code.duration_s;
   }
   return mean;
+}
+
+/// Both sets as one, each motion with the mean of its two weights, heaviest first.
+std::vector<Neighbour> merged(const std::vector<Neighbour>& a, const std::vector<Neighbour>& b) {
+  std::vector<Neighbour> all;
+  for (const auto* set : {&a, &b}) {
+    for (Neighbour n : *set) {
+      n.weight *= 0.5;
+      const auto found = std::find_if(all.begin(), all.end(), [&](const Neighbour& other) { return other.id == n.id; });
+      if (found == all.end()) {
+        all.push_back(n);
+      } else {
+        found->weight += n.weight;
+      }
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Neighbour& x, const Neighbour& y) {
+    return x.weight != y.weight ? x.weight > y.weight : x.id < y.id;
+  });
+  return all;
 }
 
 std::vector<std::string> why_outside(const std::vector<MotionSummary>& motions, const Query& query) {
@@ -114,6 +137,12 @@ double posture_time(const Events& e, std::size_t frame) {
   return speed * (t - 0.5 * ramp);
 }
 
+/// The posture passes from what the neighbours of the home do to what those of the target do.
+Eigen::VectorXd coordinates_between(const MotionCode& from, const MotionCode& to, double t) {
+  const double share = t * t * (3.0 - 2.0 * t);
+  return (1.0 - share) * coordinates_at(from, t) + share * coordinates_at(to, t);
+}
+
 BoxPose box_at(const Task& task, const EndpointPath& path, double t) {
   const double whole_turn = std::remainder(task.target_yaw_rad - task.home_yaw_rad, 2.0 * kPi);
   return {point_at(path, task.home, task.target, t), task.home_yaw_rad + progress(path, t) * whole_turn};
@@ -151,29 +180,31 @@ Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task
   const std::vector<MotionSummary> summaries = corpus.summaries();
   if (summaries.empty()) fail("the corpus ", corpus.path().string(), " holds no motions; import some first");
   Motion motion;
-  motion.neighbours = nearest_motions(summaries, query, options.neighbours);
   motion.outside_data = why_outside(summaries, query);
-  std::vector<std::int64_t> ids;
-  for (const Neighbour& n : motion.neighbours) ids.push_back(n.id);
-  const MotionCode code = mean_code(corpus.load(ids), motion.neighbours, query);
+  const std::vector<Neighbour> at_home = nearest_motions(summaries, query, End::home, options.neighbours);
+  const std::vector<Neighbour> at_target = nearest_motions(summaries, query, End::target, options.neighbours);
+  motion.neighbours = merged(at_home, at_target);
+  const MotionCode from = mean_code(corpus, at_home, query), to = mean_code(corpus, at_target, query);
+  const MotionCode code = mean_code(corpus, motion.neighbours, query);
 
   motion.duration_s = options.duration_s.value_or(code.duration_s);
   motion.events = schedule(motion.duration_s, options.frame_rate);
   const EndpointPath path = path_of(code);
   const BodyLinkage linkage(two_handed_linkage(), body);
-  const Holder holder(two_handed_linkage(), body, subject.mass_kg.value_or(kUsualBodyMassIndex * subject.stature_m * subject.stature_m));
+  const Holder holder(body, subject.mass_kg.value_or(kUsualBodyMassIndex * subject.stature_m * subject.stature_m));
   Correction trunk{"trunk", 0.0, 0.0, 0};
   std::optional<std::pair<std::size_t, HoldReport>> worst;
   for (std::size_t frame = 0; frame <= motion.events.end; ++frame) {
     const BoxPose pose = box_at(task, path, path_time(motion.events, frame));
     const Anchors anchors = anchors_for(body, task, pose);
-    Posture posture = linkage.decode(coordinates_at(code, posture_time(motion.events, frame)), anchors);
-    const HoldReport report = holder.hold(posture, anchors, {pose.position + Vec3(0, 0, 0.5 * task.object.height_m), task.object.mass_kg});
+    const Decoded decoded = linkage.decode(coordinates_between(from, to, posture_time(motion.events, frame)), anchors);
+    HoldReport report;
+    const Load load{pose.position + Vec3(0, 0, 0.5 * task.object.height_m), task.object.mass_kg};
+    motion.postures.push_back(holder.hold(decoded, anchors, load, report));
     if (report.shortfall_m > 0.0 && (!worst || report.shortfall_m > worst->second.shortfall_m)) worst = {frame, report};
     trunk.amount_m = std::max(trunk.amount_m, report.trunk_shift_m);
     trunk.amount_rad = std::max(trunk.amount_rad, report.trunk_turn_rad);
     trunk.frames += report.trunk_shift_m > 1e-3 ? 1 : 0;
-    motion.postures.push_back(posture);
     motion.box.push_back(pose);
     motion.times_s.push_back(static_cast<double>(frame) / options.frame_rate);
   }

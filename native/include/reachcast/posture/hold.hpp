@@ -2,10 +2,10 @@
 /// Both hands on the object, both feet flat, the weight over them: the correction after decoding (the 2004 paper names
 /// the needs on p. 551 and leaves them open).
 ///
-/// The trunk (pelvis, chest, head) is moved as one piece: over the feet where the weight is beyond them, then by a small
-/// rigid motion that brings all four limbs within their reach of ankles and grips; where the two disagree the limbs win.
-/// Then the limbs are decoded again from their own coordinates between their new roots and the anchors. Where nothing is
-/// amiss, nothing moves but the ankles.
+/// The trunk (pelvis, chest, head) is moved as one piece: over the feet where the weight is beyond them, then to where
+/// all four limbs reach their ankles and grips, by a shift or, where no shift will do, by a shift and a turn of at
+/// most 0.6 rad; where weight and limbs disagree the limbs win. Then the limbs are decoded from their own coordinates
+/// between their roots and the anchors.
 #pragma once
 
 #include <vector>
@@ -27,25 +27,19 @@ struct HoldReport {
 class Holder {
  public:
   /// body_mass_kg > 0.
-  Holder(const Linkage& linkage, const Body& body, double body_mass_kg);
+  Holder(const Body& body, double body_mass_kg);
 
-  /// Changes `posture` so that balls, ankles and grips are exactly at their anchors. Where report.shortfall_m > 0 the
-  /// limbs stop short of them. Links keep their lengths in either case.
-  [[nodiscard]] HoldReport hold(Posture& posture, const Anchors& anchors, const Load& load) const;
+  /// The decoded posture with balls, ankles and grips exactly at their anchors. Where report.shortfall_m > 0 the limbs
+  /// stop short of them. Links keep their lengths in either case.
+  [[nodiscard]] Posture hold(const Decoded& decoded, const Anchors& anchors, const Load& load, HoldReport& report) const;
 
  private:
-  struct Limb {
-    ChainSpec spec;  ///< from its root on the trunk to its anchor
-    Chain chain;
-  };
-  using Corners = std::array<Vec3, 4>;
-  using Coordinates = std::array<std::vector<double>, 4>;
+  using Corners = std::array<Vec3, kLimbCount>;  ///< roots of the limbs, or their ends
 
-  [[nodiscard]] Coordinates limb_coordinates(const Posture& posture) const;
-  void bring_within_reach(Corners& roots, const Corners& ends, HoldReport& report) const;
-  void span_limbs(Posture& posture, const Corners& ends, const Coordinates& coordinates) const;
+  void bring_within_reach(const Corners& before, Corners& roots, const Corners& ends, HoldReport& report) const;
+  void span_limbs(const Decoded& decoded, const Corners& ends, Posture& posture) const;
 
-  std::array<Limb, 4> limbs_;  ///< left leg, right leg, left arm, right arm
+  std::vector<Chain> limbs_;  ///< holding_limbs() on this body
   double body_mass_kg_;
 };
 

@@ -4,6 +4,8 @@
 /// what was learned ahead of the body serves to its sides (the 2004 paper, p. 551, expects no good prediction there).
 #pragma once
 
+#include <vector>
+
 #include "reachcast/body/body.hpp"
 
 namespace reachcast {
@@ -21,5 +23,8 @@ struct Anchors;
 /// the limbs spanned again between their new ends with the coordinates they had. Twisting back undoes it. Every link
 /// keeps its length; an arm that cannot span stops short of its grip.
 [[nodiscard]] Posture twisted(const Posture& posture, double yaw_rad);
+
+/// Coordinates of one of holding_limbs() in `posture`, its planes turned as twisted() turns them.
+[[nodiscard]] std::vector<double> turned_limb_coordinates(std::size_t limb, const Posture& posture, double yaw_rad);
 
 }  // namespace reachcast

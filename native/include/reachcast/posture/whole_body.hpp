@@ -27,15 +27,26 @@ struct Anchors {
 /// The chain with the lengths it has in `posture` (limits of the linkage apply when `limited`).
 [[nodiscard]] Chain chain_of(const ChainSpec& spec, const Posture& posture, bool limited);
 
+/// The limbs that hold.hpp spans last: left leg and right leg (hip to ankle), left arm and right arm (clavicle to grip).
+inline constexpr std::size_t kLimbCount = 4;
+[[nodiscard]] const std::array<ChainSpec, kLimbCount>& holding_limbs();
+
+/// A posture, and the coordinates of its limbs as they were decoded: a limb that could not span its anchors is
+/// straight in the posture and has lost its plane there, but not here.
+struct Decoded {
+  Posture posture{};
+  std::array<std::vector<double>, kLimbCount> limbs;
+};
+
 /// A linkage on one body: its chains are built once and used for every frame.
 class BodyLinkage {
  public:
   BodyLinkage(const Linkage& linkage, const Body& body);
 
-  /// A posture of this body with left ball and right grip at their anchors. Every link has its length. Where a chain
-  /// cannot span its anchors, its end is put at the nearest point that it can; holding on to all anchors at once
-  /// is the work of posture/hold.hpp. Never throws for finite input.
-  [[nodiscard]] Posture decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& anchors) const;
+  /// A posture of this body that faces its hold point. Every link has its length. Where a chain cannot span its anchors,
+  /// its end is put at the nearest point that it can; holding on to all anchors at once is the work of
+  /// posture/hold.hpp. Never throws for finite input.
+  [[nodiscard]] Decoded decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& anchors) const;
 
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] const Linkage& linkage() const { return linkage_; }

@@ -27,11 +27,15 @@ struct Neighbour {
   double stature_difference_m = 0.0;
 };
 
+/// Which end of the motion a set of neighbours is for.
+enum class End { home, target };
+
 /// The k motions of the wanted phase with the smallest rank sum: rank of the task's distance + rank of the stature's
-/// difference (p. 549). The task's distance is the root of the squared distances of targets and homes; the paper's
-/// boxes all started from one place, where it is the target's distance alone. Equal values share the smallest rank;
-/// equal sums go by id. Fewer than k motions: all of them.
+/// difference (p. 549). The paper's boxes all start from one place; recordings of others do not, and a floor-to-waist
+/// lift has nothing to say about a low shelf. So there is one set for each end: the task's distance counts that end
+/// whole and the other end by a quarter. Where all homes are equal both sets are the paper's.
+/// Equal values share the smallest rank; equal sums go by id. Fewer than k motions: all of them.
 /// Throws std::invalid_argument when k < 1 or the phase has no motion.
-[[nodiscard]] std::vector<Neighbour> nearest_motions(std::span<const MotionSummary> motions, const Query& query, int k);
+[[nodiscard]] std::vector<Neighbour> nearest_motions(std::span<const MotionSummary> motions, const Query& query, End end, int k);
 
 }  // namespace reachcast
