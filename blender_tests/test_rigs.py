@@ -165,6 +165,21 @@ class StraightLimbs(unittest.TestCase):
                     self.assertGreaterEqual(knee_flexion(samples, skeleton, side).min(), 0.0)
                     self.assertGreaterEqual(elbow_flexion(samples, skeleton, side).min(), 0.0)
 
+    def test_a_planted_foot_does_not_follow_the_knee(self) -> None:
+        """The knee is carried round the leg, to behind it and back; foot and toe stay as they stood."""
+        for rig_name, make in RIGS.items():
+            with self.subTest(rig=rig_name):
+                skeleton = read_rig(make())
+                joints = np.repeat(skeleton.joints[None], 48, axis=0)
+                hip, knee, ankle = (INDEX[f"left_{name}"] for name in ("hip", "knee", "ankle"))
+                axis = rotations.normalise(joints[0, ankle] - joints[0, hip])
+                round_it = rotations.axis_rotation(axis, 3.0 * np.sin(np.linspace(0.0, math.pi, 48)))
+                joints[:, knee] = joints[:, hip] + rotations.turn(round_it, joints[:, knee] - joints[:, hip])
+                pose = retarget(skeleton, joints)
+                for segment in ("foot.L", "toe.L"):
+                    turns = pose.turns[skeleton.segments[segment]]
+                    self.assertLess(np.abs(turns - np.eye(3)).max(), 1e-9, segment)
+
     def test_rest_joints_give_the_rest_pose(self) -> None:
         for rig_name, make in RIGS.items():
             with self.subTest(rig=rig_name):

@@ -13,7 +13,8 @@ from .rotations import Array, aim, axis_rotation, dot, frame, normalise, reject,
 FULL_BEND = 0.2          #: sine of the bend from which a limb's own plane alone decides (11.5 degrees)
 MAX_HAND_TWIST = 2.6     #: radians of pronation from the forearm's neutral; half goes to the forearm, half to the hand
 LEAST_REST_BEND_DEG = 8.0
-LEVEL_FOOT = 0.4         #: cosine of the foot's slope times that of the shin's turn, from which the sole is quite level
+LEVEL_FOOT = 0.4         #: cosine of the foot's slope from which the sole is level, whatever the shin does (66 degrees)
+HANGING_FOOT = 0.25      #: cosine below which the foot turns with the shin (76 degrees)
 
 
 def carried_normal(raw: Array, axis: Array, fallback: Array, full: float = FULL_BEND) -> Array:
@@ -87,7 +88,7 @@ def hand_turns(rest_hand: Array, rest_palm: Array, hand: Array, towards: Array, 
 def foot_turns(rest_foot: Array, foot: Array, axes: Array, shin_turn: Array) -> tuple[Array, Array]:
     """Turns of the foot and the toe: the foot along ankle -> ball, its sole level; the toe keeps its rest slope.
 
-    A foot that hangs so that it points straight down has no level side; it takes that of the shin.
+    A foot that points straight down has no level side; it takes that of the shin.
 
     rest_foot (3,), foot (F, 3): unit; axes (3, 3): rows of the body frame; shin_turn (F, 3, 3).
     """
@@ -96,17 +97,34 @@ def foot_turns(rest_foot: Array, foot: Array, axes: Array, shin_turn: Array) -> 
     rest_side = normalise(level) if np.linalg.norm(level) > FULL_BEND else axes[0]
     followed = turn(shin_turn, rest_foot)
     carried = turn(aim(followed, foot), turn(shin_turn, rest_side))
-    side = _level_side(np.cross(foot, up), carried, foot)
+    side = _foot_side(np.cross(foot, up), carried, foot)
     foot_turn = frame(foot, side) @ frame(rest_foot, rest_side).T
     heading = normalise(side - dot(side, up)[:, None] * up)
     toe_turn = frame(np.broadcast_to(up, heading.shape), heading) @ frame(up, rest_side).T
     return foot_turn, toe_turn
 
 
-def _level_side(level: Array, carried: Array, foot: Array) -> Array:
-    """Unit sideways axis (F, 3) of a foot: `level` (across the vertical), turned into `carried` where they disagree."""
-    agreement = np.clip(dot(level, carried) / LEVEL_FOOT, -1.0, 1.0)
-    toward = np.where(agreement[:, None] < 0.0, -level, level)
-    own = np.where(np.linalg.norm(level, axis=1, keepdims=True) > 1e-9, normalise(toward), carried)
-    share = np.abs(agreement)
-    return _turned_towards(carried, own, foot, share * share * (3.0 - 2.0 * share))
+def _foot_side(level: Array, carried: Array, foot: Array) -> Array:
+    """Unit sideways axes (F, 3) of a foot: `level` while the sole can be level, `carried` by the shin while it cannot.
+
+    A foot that swings past straight down comes out with its level axis reversed. So each run of level frames has a
+    sign: the first, in which the person stands, is right; later ones agree with the shin.
+    """
+    slope = np.linalg.norm(level, axis=1)
+    flat = slope >= LEVEL_FOOT
+    if not np.any(flat):
+        return carried
+    starts = flat & ~np.concatenate([[False], flat[:-1]])
+    run_of = np.cumsum(starts) - 1
+    agreement = np.array([np.sum(dot(level, carried)[flat & (run_of == run)]) for run in range(run_of[-1] + 1)])
+    signs = np.where(agreement < 0.0, -1.0, 1.0)
+    signs[0] = 1.0
+    level_frames = np.flatnonzero(flat)
+    after = np.searchsorted(level_frames, np.arange(len(flat))).clip(0, len(level_frames) - 1)
+    before = (after - 1).clip(0)
+    frames = np.arange(len(flat))
+    nearer = np.where(np.abs(level_frames[after] - frames) <= np.abs(frames - level_frames[before]), after, before)
+    own = normalise(level) * signs[run_of[level_frames[nearer]]][:, None]
+    share = np.clip((slope - HANGING_FOOT) / (LEVEL_FOOT - HANGING_FOOT), 0.0, 1.0)
+    share = share * share * (3.0 - 2.0 * share)
+    return _turned_towards(carried, np.where(share[:, None] > 0.0, own, carried), foot, share)
