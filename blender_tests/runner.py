@@ -49,7 +49,8 @@ class CleanSceneResult(unittest.TestResult):
         super().addError(test, err)
         self._line("ERROR", test, self.errors[-1][1])
 
-    def addSubTest(self, test: unittest.TestCase, subtest: unittest.TestCase, err: tuple | None) -> None:  # type: ignore[type-arg]
+    def addSubTest(self, test: unittest.TestCase, subtest: unittest.TestCase,
+                   err: tuple | None) -> None:  # type: ignore[type-arg]
         super().addSubTest(test, subtest, err)
         if err is not None:
             self._line("FAIL", subtest, (self.failures + self.errors)[-1][1])

@@ -23,7 +23,7 @@ from rig_cases import RIGS, mannequin, metarig, random_motion, set_rest_arms, se
 JOINT_TOLERANCE = 1e-5
 #: Relative. A length in single precision after nine products.
 STRETCH_TOLERANCE = 5e-6
-#: Radians. A limb a few degrees bent at rest takes part of its roll from that bend, part from the straight limb's hinge.
+#: Radians. A limb a little bent at rest takes part of its roll from that bend, part from the straight limb's hinge.
 REST_TOLERANCE = 0.01
 FRAMES = 24
 FIRST = 11

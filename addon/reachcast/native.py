@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one place that loads `reachcast_core`. The add-on registers without it; then `reason()` is what the panel shows."""
+"""The one place that loads `reachcast_core`. The add-on registers without it; then the panel shows `reason()`."""
 from __future__ import annotations
 
 import importlib.machinery

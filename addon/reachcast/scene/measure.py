@@ -117,7 +117,7 @@ def foot_slip(samples: Samples, word: str) -> float:
 
 
 def elbow_flexion(samples: Samples, skeleton: Skeleton, side: str) -> Array:
-    """(F,) degrees: positive when the elbow bends about the hinge its upper arm bone carries. Zero if nearly straight."""
+    """(F,) degrees: positive when the elbow bends about the hinge of its upper arm bone. Zero if nearly straight."""
     rest, word = skeleton.joint, dict(SIDES)[side]
     straight = rest_hinge(normalise(rest(f"{word}_elbow") - rest(f"{word}_shoulder")), skeleton.axes)
     names = ("shoulder", "elbow", "wrist")

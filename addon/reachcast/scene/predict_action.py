@@ -55,7 +55,7 @@ class PredictionResult:
     outside_data: bool
     outside_reasons: tuple[str, ...]
     corrections: tuple[str, ...]
-    errors: Mapping[str, float]                           #: metres: landing, grip (while held), pose (rig to prediction)
+    errors: Mapping[str, float]                           #: metres: landing, grip (while held), pose
 
 
 def default_corpus() -> Path | None:
@@ -137,7 +137,8 @@ def _predict(core: ModuleType, skeleton: Skeleton, lift: Lift, corpus: object, s
 
 
 def _errors(skeleton: Skeleton, lift: Lift, motion: Any, pose: RigPose, joints: Array) -> dict[str, float]:
-    """How far the rig's bones, by forward kinematics, are from what was asked; ValueError when they cannot follow."""
+    """How far the rig's bones, by forward kinematics, are from what was asked: the box at release from the shelf, the
+    grips from their handles, the joints from the prediction. ValueError when the rig cannot follow."""
     reached = posed_joints(skeleton, pose)
     misfit = np.linalg.norm(reached - joints, axis=2)[:, EXACT_JOINTS]
     if (worst := float(misfit.max())) > MAX_MISFIT_M:

@@ -24,7 +24,7 @@ _MOST_METRES = 3.0                          #: no pair of hands holds a larger b
 
 @dataclass(frozen=True)
 class BoxShape:
-    """A box in metres. The grips are `grip_distance` apart along its own x, `handle_height` above the middle of its base."""
+    """A box in metres. The grips are `grip_distance` apart along its own x, `handle_height` above its base."""
 
     width: float
     depth: float
