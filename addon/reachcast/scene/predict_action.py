@@ -143,8 +143,8 @@ def _errors(skeleton: Skeleton, lift: Lift, motion: Any, pose: RigPose, joints: 
     misfit = np.linalg.norm(reached - joints, axis=2)[:, EXACT_JOINTS]
     if (worst := float(misfit.max())) > MAX_MISFIT_M:
         frame, joint = np.unravel_index(int(misfit.argmax()), misfit.shape)
-        raise ValueError(f"Rig '{skeleton.name}' cannot follow the predicted motion: {JOINTS[EXACT_JOINTS[joint]]} would be "
-                         f"{worst * 1000:.1f} mm off at frame {frame}; the limit is {MAX_MISFIT_M * 1000:g} mm")
+        raise ValueError(f"Rig '{skeleton.name}' cannot follow the predicted motion: "
+                         f"{JOINTS[EXACT_JOINTS[joint]]} would be {worst * 1000:.1f} mm off at frame {frame}; the limit is {MAX_MISFIT_M * 1000:g} mm")
     origins, turns = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
     held = slice(int(motion.events["grasp"]), int(motion.events["release"]) + 1)
     grip = 0.0
