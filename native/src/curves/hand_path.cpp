@@ -46,7 +46,7 @@ Eigen::VectorXd scaled_offsets(const Points& path, const HandPathFit& options, s
   Eigen::VectorXd offsets(3 * (options.degree - 1));
   for (int i = 1; i < options.degree; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    offsets.segment<3>(3 * (i - 1)) = to_eigen(for_hand((control[k] - axis[k]) / scale, options.hand));
+    offsets.segment<3>(Eigen::Index{3} * (i - 1)) = to_eigen(for_hand((control[k] - axis[k]) / scale, options.hand));
   }
   return offsets;
 }
@@ -163,7 +163,7 @@ HandPath HandPathModel::place(const Eigen::VectorXd& offsets, const Vec3& start,
   const double scale = scale_of(scaling_, glm::length(end - start), duration_s);
   HandPath path{axis_points(start, end, degree()), speed_};
   for (int i = 1; i < degree(); ++i) {
-    const Vec3 offset = to_glm(offsets.segment<3>(3 * (i - 1)));
+    const Vec3 offset = to_glm(offsets.segment<3>(Eigen::Index{3} * (i - 1)));
     path.control[static_cast<std::size_t>(i)] += scale * for_hand(offset, hand);
   }
   return path;

@@ -34,7 +34,8 @@ double continued_fraction(double a, double b, double x) {
   const auto away_from_zero = [](double v) { return std::abs(v) < kTiny ? kTiny : v; };
   double value = 1.0, above = 1.0, below = 0.0;
   for (int term = 1; term <= kMaxTerms; ++term) {
-    const double m = term / 2;
+    const int pair = term / 2;
+    const double m = pair;
     const double d = term % 2 == 0 ? m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m))
                                    : -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
     below = 1.0 / away_from_zero(1.0 + d * below);
