@@ -11,7 +11,7 @@ PYBIND11_MODULE(reachcast_core, m) {
   m.attr("__version__") = REACHCAST_VERSION;
   bind_body(m);
   bind_posture(m);
-  //bind_curves(m);
+  bind_curves(m);
   bind_mocap(m);
   bind_corpus(m);
   bind_predict(m);

@@ -12,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -29,6 +30,19 @@ inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 [[nodiscard]] inline Vec3 to_glm(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 [[nodiscard]] inline bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// The smallest rotation that turns one direction into another; neither may be zero. For opposite directions, half a turn
+/// about what is nearest to the vertical.
+[[nodiscard]] inline Quat smallest_rotation(const Vec3& from, const Vec3& to) {
+  const Vec3 a = glm::normalize(from), b = glm::normalize(to);
+  const double cosine = glm::dot(a, b);
+  if (cosine < -1.0 + 1e-9) {
+    const Vec3 up = std::abs(a.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
+    return glm::angleAxis(kPi, glm::normalize(up - glm::dot(up, a) * a));
+  }
+  const Vec3 cross = glm::cross(a, b);
+  return glm::normalize(Quat(1.0 + cosine, cross.x, cross.y, cross.z));
 }
 
 }  // namespace reachcast

@@ -13,17 +13,6 @@ namespace {
 
 constexpr double kShortestAxis_m = 0.01;
 
-Quat smallest_rotation(const Vec3& from, const Vec3& to) {
-  const Vec3 a = glm::normalize(from), b = glm::normalize(to);
-  const double cosine = glm::dot(a, b);
-  if (cosine < -1.0 + 1e-9) {  // opposite: half a turn about the vertical, or about x where the axis is vertical
-    const Vec3 up = std::abs(a.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
-    return glm::angleAxis(kPi, glm::normalize(up - glm::dot(up, a) * a));
-  }
-  const Vec3 cross = glm::cross(a, b);
-  return glm::normalize(Quat(1.0 + cosine, cross.x, cross.y, cross.z));
-}
-
 }  // namespace
 
 EndpointPath fit_endpoint_path(std::span<const Vec3> points) {

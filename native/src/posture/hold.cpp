@@ -45,9 +45,9 @@ Vec3 brought_within(const Interval& reach, const Vec3& root, const Vec3& anchor)
   return anchor + (root - anchor) * (wanted / across);
 }
 
-constexpr std::array kTrunk{Joint::left_hip,      Joint::right_hip,      Joint::l5s1,          Joint::c7t1,
-                            Joint::suprasternale, Joint::left_clavicle,  Joint::right_clavicle, Joint::tragion,
-                            Joint::nasion};
+constexpr std::array kTrunk{Joint::left_hip,      Joint::right_hip,     Joint::l5s1,           Joint::c7t1,
+                            Joint::suprasternale, Joint::left_clavicle, Joint::right_clavicle, Joint::left_shoulder,
+                            Joint::right_shoulder, Joint::tragion,      Joint::nasion};
 
 Vec3 mean(const std::vector<Vec3>& values) {
   Vec3 sum(0.0);
@@ -59,33 +59,35 @@ double angle_of(const Mat3& r) { return std::acos(std::clamp(0.5 * (r[0][0] + r[
 
 }  // namespace
 
-Holder::Holder(const Body& body, double body_mass_kg) : body_mass_kg_(body_mass_kg) {
-  for (const ChainSpec& spec : holding_limbs()) limbs_.push_back(chain_of(spec, body.posture(), true));
+Holder::Holder(const Linkage& linkage, const Body& body, double body_mass_kg)
+    : limbs_(linkage.limbs), body_(body), body_mass_kg_(body_mass_kg) {
+  for (const LimbSpec& limb : limbs_) chains_.push_back(chain_of(limb, body.posture(), true));
 }
 
 Posture Holder::hold(const Decoded& decoded, const Anchors& anchors, const Load& load, HoldReport& report) const {
-  const Corners ends{anchors.ankle[0], anchors.ankle[1], anchors.grip[0], anchors.grip[1]};
-  Posture posture = decoded.posture;
+  const Corners ends{anchors.ankle[0], anchors.ankle[1], anchors.grip[0] + decoded.wrist_from_grip[0],
+                     anchors.grip[1] + decoded.wrist_from_grip[1]};
+  Posture posture = decoded.trunk;
   Corners before;
-  for (std::size_t i = 0; i < kLimbCount; ++i) before[i] = posture[index(holding_limbs()[i].joints.front())];
+  for (std::size_t i = 0; i < kLimbCount; ++i) before[i] = posture[index(limbs_[i].root)];
   Corners now = before;
   for (int round = 0; round < kBalanceRounds; ++round) {
     bring_within_reach(before, now, ends, report);
     const RigidMotion motion = nearest_rigid_motion(before, now);
-    for (const Joint j : kTrunk) posture[index(j)] = motion(decoded.posture[index(j)]);
-    span_limbs(decoded, ends, posture);
+    for (const Joint j : kTrunk) posture[index(j)] = motion(decoded.trunk[index(j)]);
+    for (std::size_t i = 0; i < kLimbCount; ++i) span_limb(limbs_[i], chains_[i], decoded.planes[i], ends[i], posture);
+    place_hands(body_, decoded.wrist_from_grip, posture);
+    for (const std::size_t side : {0u, 1u}) {  // the foot goes with its ankle
+      posture[index(side == 0 ? Joint::left_ball : Joint::right_ball)] = anchors.ball[side] + posture[index(limbs_[side].end)] - ends[side];
+    }
     const Vec3 excess = beyond_support(centre_of_mass(posture, body_mass_kg_, load), anchors);
     report.unbalanced_m = glm::length(excess);
-    report.trunk_shift_m = glm::distance(decoded.posture[index(Joint::l5s1)], posture[index(Joint::l5s1)]);
+    report.trunk_shift_m = glm::distance(decoded.trunk[index(Joint::l5s1)], posture[index(Joint::l5s1)]);
     report.trunk_turn_rad = angle_of(motion.rotation);
     if (report.unbalanced_m < kTolerance_m || report.shortfall_m > 0.0) break;
     if (round + 1 < kBalanceRounds) {
       for (Vec3& root : now) root -= excess / kMassThatMoves;
     }
-  }
-  for (const std::size_t side : {0u, 1u}) {  // the foot goes with its ankle
-    const Joint ball = side == 0 ? Joint::left_ball : Joint::right_ball;
-    posture[index(ball)] = anchors.ball[side] + posture[index(holding_limbs()[side].joints.back())] - ends[side];
   }
   return posture;
 }
@@ -98,10 +100,10 @@ void Holder::bring_within_reach(const Corners& before, Corners& roots, const Cor
     std::vector<Vec3> pulls;
     double worst = 0.0;
     for (std::size_t i = 0; i < kLimbCount; ++i) {
-      wanted[i] = brought_within(limbs_[i].reach(), roots[i], ends[i]);
+      wanted[i] = brought_within(chains_[i].reach(), roots[i], ends[i]);
       const double gap = glm::distance(wanted[i], roots[i]);
       if (gap > 0.0) pulls.push_back(wanted[i] - roots[i]);
-      if (gap > worst) worst = gap, report.shortfall_from = holding_limbs()[i].joints.front();
+      if (gap > worst) worst = gap, report.shortfall_from = limbs_[i].root;
     }
     report.shortfall_m = worst < kMargin_m ? 0.0 : worst;
     if (worst < kTolerance_m) return;
@@ -114,18 +116,6 @@ void Holder::bring_within_reach(const Corners& before, Corners& roots, const Cor
     for (Vec3& root : moved) root = step(root);
     if (angle_of(nearest_rigid_motion(before, moved).rotation) > kMostTurn_rad) return;
     roots = moved;
-  }
-}
-
-void Holder::span_limbs(const Decoded& decoded, const Corners& ends, Posture& posture) const {
-  for (std::size_t i = 0; i < kLimbCount; ++i) {
-    const ChainSpec& spec = holding_limbs()[i];
-    const Vec3 root = posture[index(spec.joints.front())];
-    const double across = glm::distance(root, ends[i]);
-    const double wanted = std::clamp(across, limbs_[i].reach().lo, limbs_[i].reach().hi);
-    Points points(spec.joints.size());
-    limbs_[i].decode(root, across == wanted ? ends[i] : root + (ends[i] - root) * (wanted / across), decoded.limbs[i], points);
-    for (std::size_t j = 0; j < points.size(); ++j) posture[index(spec.joints[j])] = points[j];
   }
 }
 

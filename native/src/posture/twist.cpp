@@ -1,37 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reachcast/posture/twist.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "reachcast/posture/limb.hpp"
 #include "reachcast/posture/whole_body.hpp"
 
 namespace reachcast {
 namespace {
 
-constexpr double kSeenFrom_m = 0.2;    // behind the ankles
-constexpr double kPelvisShare = 0.4;   // feet on the floor: some 35 degrees of hip rotation at a full side reach
-constexpr double kChestShare = 0.8;    // and as much again between pelvis and chest
-constexpr double kKneeShare = 0.2;
+constexpr double kSeenFrom_m = 0.2;   // behind the ankles
+constexpr double kPelvisShare = 0.4;  // feet on the floor: some 35 degrees of hip rotation at a full side reach
+constexpr double kChestShare = 0.8;   // and as much again between pelvis and chest
 
-Vec3 turned(const Vec3& v, double yaw) {
-  const double c = std::cos(yaw), s = std::sin(yaw);
-  return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
-}
-
-/// The limb between the ends it has in `after`.
-void respan(std::size_t limb, const Posture& before, double yaw, Posture& after) {
-  const ChainSpec& spec = holding_limbs()[limb];
-  const Chain chain = chain_of(spec, before, false);
-  const std::vector<double> coordinates = turned_limb_coordinates(limb, before, yaw);
-  const Vec3 start = after[index(spec.joints.front())], end = after[index(spec.joints.back())];
-  const double across = glm::distance(start, end), wanted = std::clamp(across, chain.reach().lo, chain.reach().hi);
-  Points points(spec.joints.size());
-  chain.decode(start, across > 1e-9 ? start + (end - start) * (wanted / across) : start + Vec3(0, 0, -wanted), coordinates, points);
-  for (std::size_t i = 0; i < points.size(); ++i) after[index(spec.joints[i])] = points[i];
+/// Joints that move as one with the end of each limb, in the order of Linkage::limbs.
+const std::array<std::vector<Joint>, kLimbCount>& carried_by_ends() {
+  using enum Joint;
+  static const std::array<std::vector<Joint>, kLimbCount> joints{{{left_ball},
+                                                                  {right_ball},
+                                                                  {left_grip, left_hand_front, left_hand_back},
+                                                                  {right_grip, right_hand_front, right_hand_back}}};
+  return joints;
 }
 
 }  // namespace
+
+Vec3 turned(const Vec3& v, double yaw_rad) {
+  const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+  return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
+}
 
 double facing_yaw(const Anchors& anchors) {
   const Vec3 feet = 0.5 * (anchors.ankle[0] + anchors.ankle[1]), hold = 0.5 * (anchors.grip[0] + anchors.grip[1]);
@@ -48,42 +46,22 @@ Anchors with_grips_turned(const Anchors& anchors, double yaw_rad) {
 Posture twisted(const Posture& posture, double yaw_rad) {
   using enum Joint;
   const Vec3 feet = 0.5 * (posture[index(left_ankle)] + posture[index(right_ankle)]);
-  const Vec3 waist = posture[index(l5s1)];
   Posture out = posture;
   for (const Joint j : {left_hip, right_hip, l5s1}) out[index(j)] = feet + turned(posture[index(j)] - feet, kPelvisShare * yaw_rad);
-  for (const Joint j : {c7t1, suprasternale, left_clavicle, right_clavicle, tragion, nasion}) {
-    out[index(j)] = out[index(l5s1)] + turned(posture[index(j)] - waist, kChestShare * yaw_rad);
+  for (const Joint j : {c7t1, suprasternale, left_clavicle, right_clavicle, left_shoulder, right_shoulder, tragion, nasion}) {
+    out[index(j)] = out[index(l5s1)] + turned(posture[index(j)] - posture[index(l5s1)], kChestShare * yaw_rad);
   }
-  for (const Joint j : {left_grip, right_grip}) out[index(j)] = feet + turned(posture[index(j)] - feet, yaw_rad);
-  for (std::size_t limb = 0; limb < kLimbCount; ++limb) respan(limb, posture, yaw_rad, out);
-  for (const Joint j : {left_ball, right_ball}) {  // the foot goes with an ankle that a leg could not hold
-    const Joint ankle = j == left_ball ? left_ankle : right_ankle;
-    out[index(j)] = posture[index(j)] + out[index(ankle)] - posture[index(ankle)];
-  }
-  for (const bool left : {true, false}) {
-    const auto side = [&](Joint right) { return left ? mirrored(right) : right; };
-    const Vec3 wrist = out[index(side(right_wrist))], along = glm::normalize(out[index(side(right_grip))] - wrist);
-    for (const Joint j : {side(right_hand_front), side(right_hand_back)}) {
-      out[index(j)] = wrist + along * glm::distance(posture[index(j)], posture[index(side(right_wrist))]);
+  for (std::size_t i = 0; i < kLimbCount; ++i) {
+    const LimbSpec& limb = two_handed_linkage().limbs[i];
+    const bool is_arm = i >= 2;
+    const LimbPlane plane = plane_of(limb, posture);
+    const Vec3 end = is_arm ? feet + turned(posture[index(limb.end)] - feet, yaw_rad) : posture[index(limb.end)];
+    span_limb(limb, chain_of(limb, posture, false), {turned(plane.normal, limb.turn * yaw_rad), turned(plane.axis, limb.turn * yaw_rad)}, end, out);
+    for (const Joint j : carried_by_ends()[i]) {
+      out[index(j)] = out[index(limb.end)] + turned(posture[index(j)] - posture[index(limb.end)], is_arm ? yaw_rad : 0.0);
     }
   }
   return out;
-}
-
-std::vector<double> turned_limb_coordinates(std::size_t limb, const Posture& posture, double yaw_rad) {
-  const ChainSpec& spec = holding_limbs()[limb];
-  const Chain chain = chain_of(spec, posture, false);
-  Points points;
-  for (const Joint joint : spec.joints) points.push_back(posture[index(joint)]);
-  std::vector<double> coordinates(chain.coordinate_count());
-  chain.encode(points, coordinates);
-  const double share = limb < 2 ? kKneeShare : 1.0;
-  for (std::size_t joint = 1; joint < chain.links(); ++joint) {
-    double* normal = &coordinates[chain.normal_offset(joint)];
-    const Vec3 v = turned({normal[0], normal[1], normal[2]}, share * yaw_rad);
-    for (int i = 0; i < 3; ++i) normal[i] = v[i];
-  }
-  return coordinates;
 }
 
 }  // namespace reachcast

@@ -46,6 +46,31 @@ std::size_t coordinates_of(const ChainSpec& spec) {
   return Chain(ones, pivots).coordinate_count();
 }
 
+/// How a part is turned in `posture` against a stand.
+Mat3 turn_of(const RigidSpec& part, const Posture& stand, const Posture& posture) {
+  const auto frame = [&](const Posture& p) { return triangle_frame(p[index(part.a)], p[index(part.b)], p[index(part.apex)]); };
+  return frame(posture) * glm::transpose(frame(stand));
+}
+
+/// Level axes of the held object: x from the left grip to the right one.
+Mat3 object_frame(const Posture& posture) {
+  const Vec3 across = posture[index(Joint::right_grip)] - posture[index(Joint::left_grip)];
+  const double size = std::hypot(across.x, across.y);
+  const Vec3 x = size > 1e-6 ? Vec3(across.x / size, across.y / size, 0.0) : Vec3(1, 0, 0);
+  return {x, Vec3(-x.y, x.x, 0.0), Vec3(0, 0, 1)};
+}
+
+Mat3 pointer_frame(const Linkage& linkage, const PointerSpec& pointer, const Posture& stand, const Posture& posture) {
+  return pointer.part == PointerSpec::kObject ? object_frame(posture) : turn_of(linkage.parts[pointer.part], stand, posture);
+}
+
+/// The stand against which recordings are measured: they bring none of their own, and their trunk landmarks follow
+/// the same proportions.
+const Posture& upright() {
+  static const Posture stand = Body::from_stature(1.7).posture();
+  return stand;
+}
+
 /// The apex on its circle about a -> b, in the direction whose triangle has the stored normal; the riders follow.
 void decode_part(const RigidSpec& part, const Body& body, const double* stored, Posture& posture) {
   const Vec3 a = posture[index(part.a)], b = posture[index(part.b)];
@@ -69,28 +94,6 @@ Mat3 triangle_frame(const Vec3& a, const Vec3& b, const Vec3& apex) {
   return {x, glm::cross(z, x), z};
 }
 
-const std::array<ChainSpec, kLimbCount>& holding_limbs() {
-  using enum Joint;
-  static const auto limbs = [] {
-    const auto limit_of = [](Joint joint) {
-      for (const ChainSpec& spec : two_handed_linkage().limbs) {
-        if (spec.limits.front().first == joint) return spec.limits.front().second;
-      }
-      return FlexionLimit{};
-    };
-    const FlexionLimit knee = limit_of(right_knee), elbow = limit_of(left_elbow);
-    const auto leg = [&](Joint hip, Joint bend, Joint ankle) { return ChainSpec{"leg", {hip, bend, ankle}, {bend}, {{bend, knee}}}; };
-    const auto arm = [&](Joint root, Joint shoulder, Joint bend, Joint wrist, Joint grip) {
-      return ChainSpec{"arm", {root, shoulder, bend, wrist, grip}, {shoulder, wrist}, {{bend, elbow}}};
-    };
-    return std::array<ChainSpec, kLimbCount>{
-        leg(left_hip, left_knee, left_ankle), leg(right_hip, right_knee, right_ankle),
-        arm(left_clavicle, left_shoulder, left_elbow, left_wrist, left_grip),
-        arm(right_clavicle, right_shoulder, right_elbow, right_wrist, right_grip)};
-  }();
-  return limbs;
-}
-
 Anchors anchors_of(const Posture& p) {
   using enum Joint;
   return {{p[index(left_ball)], p[index(right_ball)]},
@@ -99,9 +102,8 @@ Anchors anchors_of(const Posture& p) {
 }
 
 Eigen::Index posture_coordinate_count(const Linkage& linkage) {
-  std::size_t count = coordinates_of(linkage.primary) + 3 * (linkage.parts.size() + linkage.pointers.size());
-  for (const ChainSpec& limb : linkage.limbs) count += coordinates_of(limb);
-  return static_cast<Eigen::Index>(count);
+  const std::size_t count = coordinates_of(linkage.primary) + 3 * (linkage.parts.size() + linkage.pointers.size());
+  return static_cast<Eigen::Index>(count + 6 * kLimbCount);
 }
 
 Chain chain_of(const ChainSpec& spec, const Posture& posture, bool limited) {
@@ -130,26 +132,23 @@ Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded) 
     const Vec3 normal = size > 0.0 ? glm::cross(base, apex) / size : Vec3(0.0);
     for (int i = 0; i < 3; ++i) *next++ = normal[i];
   }
-  for (const ChainSpec& limb : linkage.limbs) {
-    encode_chain(limb, posture, next);
-    next += coordinates_of(limb);
-  }
   for (const PointerSpec& pointer : linkage.pointers) {
-    const RigidSpec& part = linkage.parts[pointer.part];
-    const Mat3 frame = triangle_frame(posture[index(part.a)], posture[index(part.b)], posture[index(part.apex)]);
-    const Vec3 local = glm::transpose(frame) * glm::normalize(posture[index(pointer.to)] - posture[index(pointer.from)]);
+    const Mat3 turn = pointer_frame(linkage, pointer, upright(), posture);
+    const Vec3 local = glm::transpose(turn) * glm::normalize(posture[index(pointer.to)] - posture[index(pointer.from)]);
     for (int i = 0; i < 3; ++i) *next++ = local[i];
+  }
+  for (const LimbSpec& limb : linkage.limbs) {
+    const LimbPlane plane = plane_of(limb, posture);
+    for (int i = 0; i < 3; ++i) *next++ = plane.normal[i];
+    for (int i = 0; i < 3; ++i) *next++ = plane.axis[i];
   }
   return out;
 }
 
 BodyLinkage::BodyLinkage(const Linkage& linkage, const Body& body)
-    : linkage_(linkage), body_(body), primary_(chain_of(linkage.primary, body.posture(), true)) {
-  for (const ChainSpec& limb : linkage.limbs) limbs_.push_back(chain_of(limb, body.posture(), true));
-}
+    : linkage_(linkage), body_(body), primary_(chain_of(linkage.primary, body.posture(), true)) {}
 
 Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted) const {
-  using enum Joint;
   Posture posture{};
   const double yaw = facing_yaw(wanted);
   const Anchors anchors = with_grips_turned(wanted, -yaw);
@@ -160,29 +159,46 @@ Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates
     decode_part(part, body_, next, posture);
     next += 3;
   }
-  const std::map<Joint, Vec3> ends{{right_ball, anchors.ball[1]}, {left_grip, anchors.grip[0]}, {right_grip, anchors.grip[1]}};
-  for (std::size_t i = 0; i < limbs_.size(); ++i) {
-    const ChainSpec& spec = linkage_.limbs[i];
-    decode_chain(spec, limbs_[i], next, posture[index(spec.joints.front())], ends.at(spec.joints.back()), posture);
-    next += limbs_[i].coordinate_count();
-  }
-  for (const PointerSpec& pointer : linkage_.pointers) {
-    const RigidSpec& part = linkage_.parts[pointer.part];
-    const Mat3 frame = triangle_frame(posture[index(part.a)], posture[index(part.b)], posture[index(part.apex)]);
-    const Vec3 local(next[0], next[1], next[2]);
-    const Vec3 direction = glm::length(local) > 1e-9 ? glm::normalize(local) : Vec3(1, 0, 0);
-    posture[index(pointer.to)] = posture[index(pointer.from)] + frame * direction * body_.distance(pointer.from, pointer.to);
-    next += 3;
-  }
-  for (const Joint joint : {left_hand_front, left_hand_back, right_hand_front, right_hand_back}) {
-    const bool left = joint == left_hand_front || joint == left_hand_back;
-    const Vec3 wrist = posture[index(left ? left_wrist : right_wrist)], grip = posture[index(left ? left_grip : right_grip)];
-    posture[index(joint)] = wrist + glm::normalize(grip - wrist) * body_.distance(left ? left_wrist : right_wrist, joint);
-  }
+  place_pointed(anchors, next, posture);
+  next += 3 * linkage_.pointers.size();
   Decoded decoded;
-  for (std::size_t i = 0; i < kLimbCount; ++i) decoded.limbs[i] = turned_limb_coordinates(i, posture, yaw);
-  decoded.posture = twisted(posture, yaw);
+  for (std::size_t i = 0; i < kLimbCount; ++i) {
+    const double turn = linkage_.limbs[i].turn * yaw;
+    decoded.planes[i] = {turned({next[0], next[1], next[2]}, turn), turned({next[3], next[4], next[5]}, turn)};
+    next += 6;
+  }
+  for (const std::size_t side : {0u, 1u}) {
+    const Joint wrist = side == 0 ? Joint::left_wrist : Joint::right_wrist;
+    decoded.wrist_from_grip[side] = turned(posture[index(wrist)] - anchors.grip[side], yaw);
+    posture[index(side == 0 ? Joint::left_ankle : Joint::right_ankle)] = anchors.ankle[side];
+  }
+  decoded.trunk = twisted(posture, yaw);
   return decoded;
+}
+
+void BodyLinkage::place_pointed(const Anchors& anchors, const double* stored, Posture& posture) const {
+  posture[index(Joint::left_grip)] = anchors.grip[0];
+  posture[index(Joint::right_grip)] = anchors.grip[1];
+  for (const PointerSpec& pointer : linkage_.pointers) {
+    const Vec3 local(stored[0], stored[1], stored[2]);
+    const double size = glm::length(local);
+    const Vec3 direction = size > 1e-9 ? local / size : glm::normalize(body_.at(pointer.to) - body_.at(pointer.from));
+    const Mat3 frame = pointer_frame(linkage_, pointer, body_.posture(), posture);
+    posture[index(pointer.to)] = posture[index(pointer.from)] + frame * direction * body_.distance(pointer.from, pointer.to);
+    stored += 3;
+  }
+}
+
+void place_hands(const Body& body, const std::array<Vec3, 2>& wrist_from_grip, Posture& posture) {
+  using enum Joint;
+  for (const bool left : {true, false}) {
+    const Joint wrist = left ? left_wrist : right_wrist;
+    const Vec3 along = -wrist_from_grip[left ? 0 : 1];
+    posture[index(left ? left_grip : right_grip)] = posture[index(wrist)] + along;
+    for (const Joint j : left ? std::array{left_hand_front, left_hand_back} : std::array{right_hand_front, right_hand_back}) {
+      posture[index(j)] = posture[index(wrist)] + glm::normalize(along) * body.distance(wrist, j);
+    }
+  }
 }
 
 }  // namespace reachcast

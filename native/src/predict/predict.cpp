@@ -10,6 +10,7 @@
 #include "reachcast/motion/encode.hpp"
 #include "reachcast/posture/hold.hpp"
 #include "reachcast/posture/linkage.hpp"
+#include "reachcast/predict/approach.hpp"
 
 namespace reachcast {
 namespace {
@@ -148,6 +149,14 @@ BoxPose box_at(const Task& task, const EndpointPath& path, double t) {
   return {point_at(path, task.home, task.target, t), task.home_yaw_rad + progress(path, t) * whole_turn};
 }
 
+/// The box frame by frame; reports how far its path was raised over the edges of what it stands on.
+std::vector<BoxPose> box_path(const Task& task, const EndpointPath& path, const Events& e, double& raised_m) {
+  std::vector<BoxPose> poses;
+  for (std::size_t frame = 0; frame <= e.end; ++frame) poses.push_back(box_at(task, path, path_time(e, frame)));
+  raised_m = clear_edges(std::span(poses).subspan(e.lift_off, e.placed - e.lift_off + 1), task.object);
+  return poses;
+}
+
 Anchors anchors_for(const Body& body, const Task& task, const BoxPose& pose) {
   Anchors anchors = anchors_of(body.posture());
   anchors.grip = {grip_of(task.object, pose, true), grip_of(task.object, pose, false)};
@@ -189,13 +198,15 @@ Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task
 
   motion.duration_s = options.duration_s.value_or(code.duration_s);
   motion.events = schedule(motion.duration_s, options.frame_rate);
-  const EndpointPath path = path_of(code);
+  double raised_m = 0.0;
+  motion.box = box_path(task, path_of(code), motion.events, raised_m);
+  if (raised_m > 1e-3) motion.corrections.push_back({"edge", raised_m, 0.0, motion.events.placed - motion.events.lift_off - 1});
   const BodyLinkage linkage(two_handed_linkage(), body);
-  const Holder holder(body, subject.mass_kg.value_or(kUsualBodyMassIndex * subject.stature_m * subject.stature_m));
+  const Holder holder(two_handed_linkage(), body, subject.mass_kg.value_or(kUsualBodyMassIndex * subject.stature_m * subject.stature_m));
   Correction trunk{"trunk", 0.0, 0.0, 0};
   std::optional<std::pair<std::size_t, HoldReport>> worst;
   for (std::size_t frame = 0; frame <= motion.events.end; ++frame) {
-    const BoxPose pose = box_at(task, path, path_time(motion.events, frame));
+    const BoxPose& pose = motion.box[frame];
     const Anchors anchors = anchors_for(body, task, pose);
     const Decoded decoded = linkage.decode(coordinates_between(from, to, posture_time(motion.events, frame)), anchors);
     HoldReport report;
@@ -205,7 +216,6 @@ Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task
     trunk.amount_m = std::max(trunk.amount_m, report.trunk_shift_m);
     trunk.amount_rad = std::max(trunk.amount_rad, report.trunk_turn_rad);
     trunk.frames += report.trunk_shift_m > 1e-3 ? 1 : 0;
-    motion.box.push_back(pose);
     motion.times_s.push_back(static_cast<double>(frame) / options.frame_rate);
   }
   if (worst) fail_out_of_reach(worst->second, motion.events, worst->first, motion.box[worst->first]);

@@ -4,8 +4,8 @@
 ///
 /// The trunk (pelvis, chest, head) is moved as one piece: over the feet where the weight is beyond them, then to where
 /// all four limbs reach their ankles and grips, by a shift or, where no shift will do, by a shift and a turn of at
-/// most 0.6 rad; where weight and limbs disagree the limbs win. Then the limbs are decoded from their own coordinates
-/// between their roots and the anchors.
+/// most 0.6 rad; where weight and limbs disagree the limbs win. Then the limbs are spanned in their planes between
+/// trunk and anchors.
 #pragma once
 
 #include <vector>
@@ -27,7 +27,7 @@ struct HoldReport {
 class Holder {
  public:
   /// body_mass_kg > 0.
-  Holder(const Body& body, double body_mass_kg);
+  Holder(const Linkage& linkage, const Body& body, double body_mass_kg);
 
   /// The decoded posture with balls, ankles and grips exactly at their anchors. Where report.shortfall_m > 0 the limbs
   /// stop short of them. Links keep their lengths in either case.
@@ -37,9 +37,10 @@ class Holder {
   using Corners = std::array<Vec3, kLimbCount>;  ///< roots of the limbs, or their ends
 
   void bring_within_reach(const Corners& before, Corners& roots, const Corners& ends, HoldReport& report) const;
-  void span_limbs(const Decoded& decoded, const Corners& ends, Posture& posture) const;
 
-  std::vector<Chain> limbs_;  ///< holding_limbs() on this body
+  std::array<LimbSpec, kLimbCount> limbs_;
+  std::vector<Chain> chains_;  ///< of the limbs, on this body
+  Body body_;
   double body_mass_kg_;
 };
 

@@ -2,6 +2,7 @@
 /// Which joints hang together, as data: another task or another creature is another table, not other code.
 #pragma once
 
+#include <array>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -27,26 +28,39 @@ struct RigidSpec {
   std::vector<Joint> riders;
 };
 
-/// A link with a free end, as a direction in the frame of a rigid part.
+/// A link that is known by its direction relative to a rigid part, as turned from an upright stand, or relative to the
+/// held object, whose x runs level from the left grip to the right one.
 struct PointerSpec {
+  static constexpr std::size_t kObject = static_cast<std::size_t>(-1);
   Joint from, to;
-  std::size_t part;  ///< index into Linkage::parts
+  std::size_t part;  ///< index into Linkage::parts, or kObject
 };
 
-/// Coordinates are kept in the order primary chain, parts, other chains, pointers.
+/// Two links from the trunk to what is held or stood on, spanned last: between ends that are given, only the plane in
+/// which the hinge bends is free.
+struct LimbSpec {
+  Joint root, hinge, end;
+  FlexionLimit limit;
+  double turn;  ///< share of a turn to the side that the plane makes (twist.hpp): 1 for arms, little for legs
+};
+inline constexpr std::size_t kLimbCount = 4;
+
+/// Coordinates are kept in the order primary chain, parts, pointers, limbs; decoded in this order too. The primary chain
+/// places the trunk; what parts, pointers and limbs say of its other joints replaces what the chain said.
 struct Linkage {
   ChainSpec primary;
   std::vector<RigidSpec> parts;
-  std::vector<ChainSpec> limbs;
   std::vector<PointerSpec> pointers;
+  std::array<LimbSpec, kLimbCount> limbs;  ///< left leg, right leg, left arm, right arm
 
 };
 
-/// Two hands on one object, both feet on the floor. The 2004 paper's chains (p. 547-549) with three differences:
-/// the chest is rigid from l5s1 to the clavicle roots, as it is on a rig, so the primary chain runs l5s1 ->
-/// right_clavicle and c7t1 is the apex of the chest; wrist and ankle are pivots before elbow and knee, so that these
-/// two hinges stand between two single links, where a limit holds by construction; and the pivot c7t1 is therefore
-/// the clavicle root.
+/// Two hands on one object, both feet on the floor. The 2004 paper's chains (p. 547-549) with three differences.
+/// The chest is rigid from l5s1 to the clavicle roots, as it is on a rig: the primary chain runs l5s1 ->
+/// right_clavicle, which is its first pivot, and c7t1 is the apex of the chest. Wrist and ankle are pivots before elbow
+/// and knee, so that these two hinges stand between two single links, where a limit holds by construction. Shoulders
+/// are kept relative to the chest and hands relative to the object, against which they move little; as pivots of a
+/// chain from chest to hand they swing about when the hand comes close.
 [[nodiscard]] const Linkage& two_handed_linkage();
 
 }  // namespace reachcast

@@ -4,10 +4,9 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <map>
-#include <vector>
 
 #include "reachcast/body/body.hpp"
+#include "reachcast/posture/limb.hpp"
 #include "reachcast/posture/linkage.hpp"
 
 namespace reachcast {
@@ -16,6 +15,7 @@ namespace reachcast {
 struct Anchors {
   std::array<Vec3, 2> ball, ankle, grip;  ///< left, right
 };
+[[nodiscard]] Anchors anchors_of(const Posture& posture);
 
 /// Number of coordinates of a posture under `linkage`.
 [[nodiscard]] Eigen::Index posture_coordinate_count(const Linkage& linkage);
@@ -24,41 +24,38 @@ struct Anchors {
 /// posture itself. Logits are clamped to +-5, so that one recorded extreme does not rule a mean.
 [[nodiscard]] Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& posture);
 
-/// The chain with the lengths it has in `posture` (limits of the linkage apply when `limited`).
-[[nodiscard]] Chain chain_of(const ChainSpec& spec, const Posture& posture, bool limited);
-
-/// The limbs that hold.hpp spans last: left leg and right leg (hip to ankle), left arm and right arm (clavicle to grip).
-inline constexpr std::size_t kLimbCount = 4;
-[[nodiscard]] const std::array<ChainSpec, kLimbCount>& holding_limbs();
-
-/// A posture, and the coordinates of its limbs as they were decoded: a limb that could not span its anchors is
-/// straight in the posture and has lost its plane there, but not here.
+/// A posture before its limbs are spanned between trunk and anchors, which is the work of hold.hpp.
 struct Decoded {
-  Posture posture{};
-  std::array<std::vector<double>, kLimbCount> limbs;
+  Posture trunk{};  ///< pelvis, chest, head and shoulders stand; the other joints do not
+  std::array<LimbPlane, kLimbCount> planes;
+  std::array<Vec3, 2> wrist_from_grip{};  ///< left, right
 };
 
-/// A linkage on one body: its chains are built once and used for every frame.
+/// A linkage on one body: its chain is built once and used for every frame.
 class BodyLinkage {
  public:
   BodyLinkage(const Linkage& linkage, const Body& body);
 
-  /// A posture of this body that faces its hold point. Every link has its length. Where a chain cannot span its anchors,
-  /// its end is put at the nearest point that it can; holding on to all anchors at once is the work of
-  /// posture/hold.hpp. Never throws for finite input.
+  /// The trunk as its coordinates have it between left ball and right grip, with every segment's length. Where the
+  /// primary chain cannot span these two, the grip is taken at the nearest point that it can reach. Never throws for
+  /// finite input.
   [[nodiscard]] Decoded decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& anchors) const;
 
   [[nodiscard]] const Body& body() const { return body_; }
-  [[nodiscard]] const Linkage& linkage() const { return linkage_; }
 
  private:
+  void place_pointed(const Anchors& anchors, const double* stored, Posture& posture) const;
+
   const Linkage& linkage_;
   Body body_;
   Chain primary_;
-  std::vector<Chain> limbs_;
 };
 
-[[nodiscard]] Anchors anchors_of(const Posture& posture);
+/// The chain with the lengths it has in `posture` (limits of the linkage apply when `limited`).
+[[nodiscard]] Chain chain_of(const ChainSpec& spec, const Posture& posture, bool limited);
+
+/// Puts grips, hand front and hand back on the line from wrist to grip.
+void place_hands(const Body& body, const std::array<Vec3, 2>& wrist_from_grip, Posture& posture);
 
 /// Right-handed frame of three points: x along b - a, z along (b - a) x (apex - a). Columns are the axes.
 [[nodiscard]] Mat3 triangle_frame(const Vec3& a, const Vec3& b, const Vec3& apex);

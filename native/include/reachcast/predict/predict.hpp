@@ -25,7 +25,7 @@ struct Events {
 
 /// A change made after decoding, largest over the frames.
 struct Correction {
-  std::string name;     ///< "trunk" or "shelf edge"
+  std::string name;     ///< "trunk": moved as hold.hpp says; "edge": the path of the box raised as approach.hpp says
   double amount_m = 0.0;
   double amount_rad = 0.0;
   std::size_t frames = 0;  ///< how many frames it touched

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Two links between given ends: the middle joint lies on a circle, and the plane says where on it (Faraway 2004, fig. 2).
+#pragma once
+
+#include "reachcast/body/body.hpp"
+#include "reachcast/posture/linkage.hpp"
+
+namespace reachcast {
+
+/// The plane of a bent limb, and the direction from root to end for which it holds.
+struct LimbPlane {
+  Vec3 normal{0.0};  ///< as long as the sine of the bend: a straight limb has no plane
+  Vec3 axis{0.0};    ///< unit length where known
+};
+
+[[nodiscard]] LimbPlane plane_of(const LimbSpec& limb, const Posture& posture);
+
+/// A limb with the lengths that it has in `posture`; the limit applies when `limited`.
+[[nodiscard]] Chain chain_of(const LimbSpec& limb, const Posture& posture, bool limited);
+
+/// Puts hinge and end of the limb: the end at `end`, or where the limb stops short of it on the line from its root; the
+/// hinge in the plane, carried by the smallest rotation from its own axis to the limb's. The carrying keeps an elbow
+/// where it is relative to its arm when the arm points elsewhere than it did when the plane was learned.
+void span_limb(const LimbSpec& limb, const Chain& chain, const LimbPlane& plane, const Vec3& end, Posture& posture);
+
+}  // namespace reachcast
