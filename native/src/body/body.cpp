@@ -133,6 +133,15 @@ Posture rebuilt(const Posture& old, const std::map<std::string_view, double>& le
 
 }  // namespace
 
+Posture mirrored(const Posture& posture) {
+  Posture out;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    const Vec3& other = posture[index(mirrored(static_cast<Joint>(j)))];
+    out[j] = Vec3(-other.x, other.y, other.z);
+  }
+  return out;
+}
+
 const std::array<std::string_view, 12>& segment_names() {
   static const auto names = [] {
     std::array<std::string_view, 12> out;

@@ -35,12 +35,9 @@ Vec3 Reach::hold_point(std::size_t frame) const {
 Reach mirrored(const Reach& reach) {
   Reach image = reach;
   for (std::size_t joint = 0; joint < kJointCount; ++joint) {
-    const std::size_t other = index(mirrored(static_cast<Joint>(joint)));
-    image.derived[joint] = reach.derived[other];
-    for (std::size_t frame = 0; frame < reach.frames(); ++frame) {
-      image.postures[frame][joint] = reach.postures[frame][other] * Vec3(-1.0, 1.0, 1.0);
-    }
+    image.derived[joint] = reach.derived[index(mirrored(static_cast<Joint>(joint)))];
   }
+  for (Posture& posture : image.postures) posture = mirrored(posture);
   return image;
 }
 

@@ -10,7 +10,7 @@
 namespace reachcast {
 namespace {
 
-constexpr double kSeenFrom_m = 0.2;   // behind the ankles
+constexpr double kSeenFrom_m = 0.1;   // behind the ankles
 constexpr double kPelvisShare = 0.4;  // feet on the floor: some 35 degrees of hip rotation at a full side reach
 constexpr double kChestShare = 0.8;   // and as much again between pelvis and chest
 

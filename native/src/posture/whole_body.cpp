@@ -46,6 +46,19 @@ std::size_t coordinates_of(const ChainSpec& spec) {
   return Chain(ones, pivots).coordinate_count();
 }
 
+/// Primary chain and parts; returns where the next coordinates go.
+double* encode_trunk(const Linkage& linkage, const Posture& posture, double* out) {
+  encode_chain(linkage.primary, posture, out);
+  out += coordinates_of(linkage.primary);
+  for (const RigidSpec& part : linkage.parts) {
+    const Vec3 base = posture[index(part.b)] - posture[index(part.a)], apex = posture[index(part.apex)] - posture[index(part.a)];
+    const double size = glm::length(base) * glm::length(apex);
+    const Vec3 normal = size > 0.0 ? glm::cross(base, apex) / size : Vec3(0.0);
+    for (int i = 0; i < 3; ++i) *out++ = normal[i];
+  }
+  return out;
+}
+
 /// How a part is turned in `posture` against a stand.
 Mat3 turn_of(const RigidSpec& part, const Posture& stand, const Posture& posture) {
   const auto frame = [&](const Posture& p) { return triangle_frame(p[index(part.a)], p[index(part.b)], p[index(part.apex)]); };
@@ -86,7 +99,28 @@ void decode_part(const RigidSpec& part, const Body& body, const double* stored, 
   for (const Joint rider : part.riders) posture[index(rider)] = a + rotation * (body.at(rider) - body.at(part.a));
 }
 
+/// Parts that hang together at l5s1, midway between two ways of standing.
+Posture mean_trunk(const Linkage& linkage, const Body& body, const Posture& one, const Posture& other) {
+  Posture mean{};
+  const Vec3 centre = 0.5 * (one[index(Joint::l5s1)] + other[index(Joint::l5s1)]);
+  for (const RigidSpec& part : linkage.parts) {
+    const Quat a = glm::quat_cast(turn_of(part, body.posture(), one)), b = glm::quat_cast(turn_of(part, body.posture(), other));
+    const Mat3 rotation = glm::mat3_cast(glm::normalize(glm::dot(a, b) < 0.0 ? a - b : a + b));
+    const auto place = [&](Joint j) { mean[index(j)] = centre + rotation * (body.at(j) - body.at(Joint::l5s1)); };
+    for (const Joint j : {part.a, part.b, part.apex}) place(j);
+    for (const Joint j : part.riders) place(j);
+  }
+  return mean;
+}
+
 }  // namespace
+
+Anchors mirrored(const Anchors& anchors) {
+  const auto flip = [](const std::array<Vec3, 2>& pair) {
+    return std::array{Vec3(-pair[1].x, pair[1].y, pair[1].z), Vec3(-pair[0].x, pair[0].y, pair[0].z)};
+  };
+  return {flip(anchors.ball), flip(anchors.ankle), flip(anchors.grip)};
+}
 
 Mat3 triangle_frame(const Vec3& a, const Vec3& b, const Vec3& apex) {
   const Vec3 x = glm::normalize(b - a);
@@ -102,7 +136,8 @@ Anchors anchors_of(const Posture& p) {
 }
 
 Eigen::Index posture_coordinate_count(const Linkage& linkage) {
-  const std::size_t count = coordinates_of(linkage.primary) + 3 * (linkage.parts.size() + linkage.pointers.size());
+  const std::size_t trunk = coordinates_of(linkage.primary) + 3 * linkage.parts.size();
+  const std::size_t count = 2 * trunk + 3 * linkage.pointers.size();
   return static_cast<Eigen::Index>(count + 6 * kLimbCount);
 }
 
@@ -123,15 +158,8 @@ Chain chain_of(const ChainSpec& spec, const Posture& posture, bool limited) {
 Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded) {
   const Posture posture = twisted(recorded, -facing_yaw(anchors_of(recorded)));
   Eigen::VectorXd out(posture_coordinate_count(linkage));
-  double* next = out.data();
-  encode_chain(linkage.primary, posture, next);
-  next += coordinates_of(linkage.primary);
-  for (const RigidSpec& part : linkage.parts) {
-    const Vec3 base = posture[index(part.b)] - posture[index(part.a)], apex = posture[index(part.apex)] - posture[index(part.a)];
-    const double size = glm::length(base) * glm::length(apex);
-    const Vec3 normal = size > 0.0 ? glm::cross(base, apex) / size : Vec3(0.0);
-    for (int i = 0; i < 3; ++i) *next++ = normal[i];
-  }
+  double* next = encode_trunk(linkage, posture, out.data());
+  next = encode_trunk(linkage, mirrored(posture), next);
   for (const PointerSpec& pointer : linkage.pointers) {
     const Mat3 turn = pointer_frame(linkage, pointer, upright(), posture);
     const Vec3 local = glm::transpose(turn) * glm::normalize(posture[index(pointer.to)] - posture[index(pointer.from)]);
@@ -146,19 +174,18 @@ Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded) 
 }
 
 BodyLinkage::BodyLinkage(const Linkage& linkage, const Body& body)
-    : linkage_(linkage), body_(body), primary_(chain_of(linkage.primary, body.posture(), true)) {}
+    : linkage_(linkage), body_(body), mirror_body_(Body::from_posture(mirrored(body.posture()), body.stature_m())),
+      primary_(chain_of(linkage.primary, body.posture(), true)),
+      mirror_primary_(chain_of(linkage.primary, mirror_body_.posture(), true)) {}
 
 Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted) const {
-  Posture posture{};
   const double yaw = facing_yaw(wanted);
   const Anchors anchors = with_grips_turned(wanted, -yaw);
+  const std::size_t trunk_count = primary_.coordinate_count() + 3 * linkage_.parts.size();
   const double* next = coordinates.data();
-  decode_chain(linkage_.primary, primary_, next, anchors.ball[0], anchors.grip[1], posture);
-  next += primary_.coordinate_count();
-  for (const RigidSpec& part : linkage_.parts) {
-    decode_part(part, body_, next, posture);
-    next += 3;
-  }
+  Posture posture = mean_trunk(linkage_, body_, trunk_of(next, body_, primary_, anchors),
+                               mirrored(trunk_of(next + trunk_count, mirror_body_, mirror_primary_, mirrored(anchors))));
+  next += 2 * trunk_count;
   place_pointed(anchors, next, posture);
   next += 3 * linkage_.pointers.size();
   Decoded decoded;
@@ -174,6 +201,17 @@ Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates
   }
   decoded.trunk = twisted(posture, yaw);
   return decoded;
+}
+
+Posture BodyLinkage::trunk_of(const double* stored, const Body& body, const Chain& primary, const Anchors& anchors) const {
+  Posture posture{};
+  decode_chain(linkage_.primary, primary, stored, anchors.ball[0], anchors.grip[1], posture);
+  stored += primary.coordinate_count();
+  for (const RigidSpec& part : linkage_.parts) {
+    decode_part(part, body, stored, posture);
+    stored += 3;
+  }
+  return posture;
 }
 
 void BodyLinkage::place_pointed(const Anchors& anchors, const double* stored, Posture& posture) const {

@@ -10,7 +10,7 @@ namespace {
 constexpr double kHalfShelf_m = 0.15;  // of a usual shelf's depth, beyond the box's own
 constexpr double kClearance_m = 0.02;
 constexpr double kOverEdge_m = 0.10;   // within this distance of its place the box sinks from the clearance to zero
-constexpr double kMostRise_m = 0.35;
+constexpr double kMostRise_m = 0.15;
 
 /// t^4 (1 - t)^2, scaled to a peak of 1 at t = 2/3.
 double late_bump(double t) { return t * t * t * t * (1.0 - t) * (1.0 - t) * 45.5625; }

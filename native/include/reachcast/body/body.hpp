@@ -19,6 +19,9 @@ namespace reachcast {
 
 using Posture = std::array<Vec3, kJointCount>;  ///< indexed by index(Joint); metres
 
+/// The mirror image: x changes sign, left and right change names.
+[[nodiscard]] Posture mirrored(const Posture& posture);
+
 class Body {
  public:
   /// Published proportions (Drillis & Contini 1966 as given by Winter 2009, with trunk landmarks of ANSUR), see

@@ -45,8 +45,10 @@ struct LimbSpec {
 };
 inline constexpr std::size_t kLimbCount = 4;
 
-/// Coordinates are kept in the order primary chain, parts, pointers, limbs; decoded in this order too. The primary chain
-/// places the trunk; what parts, pointers and limbs say of its other joints replaces what the chain said.
+/// The primary chain with the parts places the trunk. It runs from one foot to the opposite hand, so it is used twice, on
+/// the posture and on its mirror image, and the trunk is the mean of the two; otherwise a reach to the left would
+/// differ from a reach to the right. Pointers and limbs then say where the other joints are. Coordinates are kept in
+/// the order primary chain and parts, the same of the mirror image, pointers, limbs; decoded in this order too.
 struct Linkage {
   ChainSpec primary;
   std::vector<RigidSpec> parts;

@@ -16,6 +16,7 @@ struct Anchors {
   std::array<Vec3, 2> ball, ankle, grip;  ///< left, right
 };
 [[nodiscard]] Anchors anchors_of(const Posture& posture);
+[[nodiscard]] Anchors mirrored(const Anchors& anchors);
 
 /// Number of coordinates of a posture under `linkage`.
 [[nodiscard]] Eigen::Index posture_coordinate_count(const Linkage& linkage);
@@ -31,7 +32,7 @@ struct Decoded {
   std::array<Vec3, 2> wrist_from_grip{};  ///< left, right
 };
 
-/// A linkage on one body: its chain is built once and used for every frame.
+/// A linkage on one body: its chains are built once and used for every frame.
 class BodyLinkage {
  public:
   BodyLinkage(const Linkage& linkage, const Body& body);
@@ -44,11 +45,12 @@ class BodyLinkage {
   [[nodiscard]] const Body& body() const { return body_; }
 
  private:
+  [[nodiscard]] Posture trunk_of(const double* stored, const Body& body, const Chain& primary, const Anchors& anchors) const;
   void place_pointed(const Anchors& anchors, const double* stored, Posture& posture) const;
 
   const Linkage& linkage_;
-  Body body_;
-  Chain primary_;
+  Body body_, mirror_body_;
+  Chain primary_, mirror_primary_;
 };
 
 /// The chain with the lengths it has in `posture` (limits of the linkage apply when `limited`).
