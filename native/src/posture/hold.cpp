@@ -36,23 +36,32 @@ RigidMotion nearest_rigid_motion(const Corners& from, const Corners& to) {
   return {Mat3(to_glm(r.col(0)), to_glm(r.col(1)), to_glm(r.col(2))), a, b};
 }
 
-/// The nearest point to `root` from which a limb with this reach spans to `anchor`.
-Vec3 brought_within(const Interval& reach, const Vec3& root, const Vec3& anchor) {
-  const double across = glm::distance(root, anchor);
+/// Where a limb with this reach spans from `root` to `anchor`: the nearest such place when the limb is too short. When
+/// it is too long a shoulder goes straight away from its wrist; a hip goes up, since a squat ends in standing up.
+Vec3 brought_within(const Interval& reach, const Vec3& root, const Vec3& anchor, bool is_leg) {
   const double margin = std::min(kMargin_m, 0.25 * (reach.hi - reach.lo));
-  const double wanted = std::clamp(across, reach.lo + margin, reach.hi - margin);
-  if (across < 1e-9) return anchor + Vec3(0, 0, wanted);
-  return anchor + (root - anchor) * (wanted / across);
+  const double lo = reach.lo + margin, hi = reach.hi - margin;
+  const Vec3 away = root - anchor;
+  const double across = glm::length(away);
+  if (across > hi) return anchor + away * (hi / across);
+  if (across >= lo) return root;
+  if (!is_leg) return across > 1e-9 ? anchor + away * (lo / across) : anchor + Vec3(0, 0, lo);
+  const double level = std::hypot(away.x, away.y);
+  return anchor + Vec3(away.x, away.y, std::sqrt(lo * lo - level * level));
 }
 
 constexpr std::array kTrunk{Joint::left_hip,      Joint::right_hip,     Joint::l5s1,           Joint::c7t1,
                             Joint::suprasternale, Joint::left_clavicle, Joint::right_clavicle, Joint::left_shoulder,
                             Joint::right_shoulder, Joint::tragion,      Joint::nasion};
 
-Vec3 mean(const std::vector<Vec3>& values) {
+/// All roots by the mean of the pulls that there are.
+void shift(Corners& roots, const Corners& wanted) {
   Vec3 sum(0.0);
-  for (const Vec3& v : values) sum += v;
-  return values.empty() ? sum : sum / static_cast<double>(values.size());
+  double pulls = 0.0;
+  for (std::size_t i = 0; i < kLimbCount; ++i) {
+    if (wanted[i] != roots[i]) sum += wanted[i] - roots[i], pulls += 1.0;
+  }
+  for (Vec3& root : roots) root += sum / std::max(pulls, 1.0);
 }
 
 double angle_of(const Mat3& r) { return std::acos(std::clamp(0.5 * (r[0][0] + r[1][1] + r[2][2] - 1.0), -1.0, 1.0)); }
@@ -95,28 +104,44 @@ Posture Holder::hold(const Decoded& decoded, const Anchors& anchors, const Load&
 /// Every root is pulled to where its limb just reaches and the trunk follows, again and again until all reach: at first
 /// without turning, then as a rigid body.
 void Holder::bring_within_reach(const Corners& before, Corners& roots, const Corners& ends, HoldReport& report) const {
+  report.shortfall_m = 0.0;
   for (int round = 0; round < kShiftRounds + kTurnRounds; ++round) {
     Corners wanted;
-    std::vector<Vec3> pulls;
-    double worst = 0.0;
-    for (std::size_t i = 0; i < kLimbCount; ++i) {
-      wanted[i] = brought_within(chains_[i].reach(), roots[i], ends[i]);
-      const double gap = glm::distance(wanted[i], roots[i]);
-      if (gap > 0.0) pulls.push_back(wanted[i] - roots[i]);
-      if (gap > worst) worst = gap, report.shortfall_from = limbs_[i].root;
-    }
-    report.shortfall_m = worst < kMargin_m ? 0.0 : worst;
-    if (worst < kTolerance_m) return;
+    if (pulled_roots(roots, ends, kLimbCount, wanted) < kTolerance_m) return;
     if (round < kShiftRounds) {
-      for (Vec3& root : roots) root += mean(pulls);
+      shift(roots, wanted);
       continue;
     }
     const RigidMotion step = nearest_rigid_motion(roots, wanted);
     Corners moved = roots;
     for (Vec3& root : moved) root = step(root);
-    if (angle_of(nearest_rigid_motion(before, moved).rotation) > kMostTurn_rad) return;
+    if (angle_of(nearest_rigid_motion(before, moved).rotation) > kMostTurn_rad) break;
     roots = moved;
   }
+  measure_shortfall(roots, ends, report);
+}
+
+/// The feet hold; what is missing is missing at the hands.
+void Holder::measure_shortfall(Corners& roots, const Corners& ends, HoldReport& report) const {
+  Corners wanted;
+  if (pulled_roots(roots, ends, kLimbCount, wanted) < kMargin_m) return;
+  for (int round = 0; round < kShiftRounds && pulled_roots(roots, ends, 2, wanted) > kTolerance_m; ++round) shift(roots, wanted);
+  (void)pulled_roots(roots, ends, kLimbCount, wanted);
+  for (std::size_t i = 0; i < kLimbCount; ++i) {
+    const double gap = glm::distance(wanted[i], roots[i]);
+    if (gap > report.shortfall_m) report.shortfall_m = gap, report.shortfall_from = limbs_[i].root;
+  }
+}
+
+/// Where the first `count` limbs want their roots; the others stay. Returns the longest pull.
+double Holder::pulled_roots(const Corners& roots, const Corners& ends, std::size_t count, Corners& wanted) const {
+  wanted = roots;
+  double longest = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    wanted[i] = brought_within(chains_[i].reach(), roots[i], ends[i], i < 2);
+    longest = std::max(longest, glm::distance(wanted[i], roots[i]));
+  }
+  return longest;
 }
 
 }  // namespace reachcast

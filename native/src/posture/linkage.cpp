@@ -4,11 +4,11 @@
 namespace reachcast {
 namespace {
 
-// Ranges of motion of healthy adults (American Academy of Orthopaedic Surgeons, 1965: elbow 0-150 degrees, knee 0-135;
-// deep squats of the recordings bend knees to 134 included 46). The lower bounds keep a bend in the limb: a straight
-// limb has no plane, and people do not lock elbows or knees under a load.
+// How far people bend: elbow to 150 degrees (American Academy of Orthopaedic Surgeons, 1965); knee to 135, with the
+// heels on the floor as deep as the recorded squats go. The lower bounds keep a bend in the limb: a straight limb has
+// no plane, and people do not lock elbows or knees under a load.
 constexpr FlexionLimit kElbow{0.12, 2.60};
-constexpr FlexionLimit kKnee{0.07, 2.60};
+constexpr FlexionLimit kKnee{0.07, 2.35};
 
 Linkage make_two_handed() {
   using enum Joint;

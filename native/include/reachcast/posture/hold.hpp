@@ -20,7 +20,8 @@ struct HoldReport {
   double trunk_shift_m = 0.0;   ///< how far l5s1 moved
   double trunk_turn_rad = 0.0;  ///< how far the trunk turned
   double unbalanced_m = 0.0;    ///< how far the weight still lies beyond the feet
-  double shortfall_m = 0.0;     ///< > 0: the anchors cannot be held; by this much the worst limb is too short or too long
+  double shortfall_m = 0.0;     ///< > 0: the anchors cannot be held; by so much the worse arm is too short or
+                                ///< too long with the feet on the floor
   Joint shortfall_from = Joint::right_shoulder;  ///< root of that limb
 };
 
@@ -37,6 +38,8 @@ class Holder {
   using Corners = std::array<Vec3, kLimbCount>;  ///< roots of the limbs, or their ends
 
   void bring_within_reach(const Corners& before, Corners& roots, const Corners& ends, HoldReport& report) const;
+  void measure_shortfall(Corners& roots, const Corners& ends, HoldReport& report) const;
+  [[nodiscard]] double pulled_roots(const Corners& roots, const Corners& ends, std::size_t count, Corners& wanted) const;
 
   std::array<LimbSpec, kLimbCount> limbs_;
   std::vector<Chain> chains_;  ///< of the limbs, on this body
