@@ -20,7 +20,8 @@ std::optional<std::string> sex_text(const std::optional<Sex>& sex) {
   return *sex == Sex::female ? "female" : "male";
 }
 
-Subject make_subject(double stature, const std::optional<std::string>& sex, std::optional<double> age, std::optional<double> mass) {
+Subject make_subject(double stature, const std::optional<std::string>& sex, std::optional<double> age,
+                     std::optional<double> mass) {
   if (!(stature >= 0.5 && stature <= 2.6)) {
     throw std::invalid_argument("stature is " + std::to_string(stature) + " m; it must lie between 0.5 and 2.6 m");
   }
@@ -50,7 +51,8 @@ void bind_body(py::module_& m) {
   for (const std::string_view name : joint_names()) names.append(py::str(name.data(), name.size()));
   m.attr("JOINTS") = py::tuple(names);
 
-  py::class_<Subject>(m, "Subject", "Who moves: stature in metres; sex 'female' or 'male', age in years, mass in kg where known.")
+  py::class_<Subject>(m, "Subject",
+                      "Who moves: stature in metres; sex 'female' or 'male', age in years, mass in kg where known.")
       .def(py::init(&make_subject), py::arg("stature"), py::arg("sex") = py::none(), py::arg("age") = py::none(),
            py::arg("mass") = py::none())
       .def_readonly("stature", &Subject::stature_m)
@@ -59,17 +61,29 @@ void bind_body(py::module_& m) {
       .def_readonly("mass", &Subject::mass_kg)
       .def("__repr__", &describe);
 
-  py::class_<Body>(m, "Body", "A body as one standing reference posture: segment lengths, trunk shape and stance are read off it.")
-      .def(py::init([](const std::map<std::string, double>& lengths, double stature) { return Body::from_lengths(stature, lengths); }),
+  py::class_<Body>(m, "Body",
+                   "A body as one standing reference posture: segment lengths, trunk shape and stance are read off it.")
+      .def(py::init([](const std::map<std::string, double>& lengths, double stature) {
+             return Body::from_lengths(stature, lengths);
+           }),
            py::arg("lengths"), py::arg("stature") = 1.72,
-           "The published proportions of `stature` with the named segments (see SEGMENTS) replaced, metres, both sides alike.")
-      .def_static("from_stature", [](double stature, const std::optional<std::string>& sex) { return Body::from_stature(stature, to_sex(sex)); },
-                  py::arg("stature"), py::arg("sex") = py::none(), "Published proportions; stature in metres, 1.2 to 2.2.")
-      .def_static("from_posture",
-                  [](const DoubleArray& posture, double stature) { return Body::from_posture(to_posture(posture, "posture"), stature); },
-                  py::arg("posture"), py::arg("stature"),
-                  "posture: (27, 3), the JOINTS of an upright stand in the body frame, as measured on a rig.")
-      .def_property_readonly("posture", [](const Body& body) { return points_array(body.posture()); }, "(27, 3), body frame, metres")
+           "The published proportions of `stature` with the named segments (see SEGMENTS) replaced, metres, both sides "
+           "alike.")
+      .def_static(
+          "from_stature",
+          [](double stature, const std::optional<std::string>& sex) {
+            return Body::from_stature(stature, to_sex(sex));
+          },
+          py::arg("stature"), py::arg("sex") = py::none(), "Published proportions; stature in metres, 1.2 to 2.2.")
+      .def_static(
+          "from_posture",
+          [](const DoubleArray& posture, double stature) {
+            return Body::from_posture(to_posture(posture, "posture"), stature);
+          },
+          py::arg("posture"), py::arg("stature"),
+          "posture: (27, 3), the JOINTS of an upright stand in the body frame, as measured on a rig.")
+      .def_property_readonly(
+          "posture", [](const Body& body) { return points_array(body.posture()); }, "(27, 3), body frame, metres")
       .def_property_readonly("stature", &Body::stature_m)
       .def_property_readonly("lengths", &Body::lengths, "dict of segment lengths, metres; left and right averaged")
       .def("__repr__", [](const Body& body) { return "Body(stature=" + std::to_string(body.stature_m()) + ")"; });

@@ -7,6 +7,7 @@
 #include "array_checks.hpp"
 #include "body_conversions.hpp"
 #include "module.hpp"
+#include "reachcast/predict/cross_validate.hpp"
 #include "reachcast/predict/predict.hpp"
 
 namespace py = pybind11;
@@ -68,14 +69,47 @@ Motion predict(const Corpus& corpus, const Subject& subject, const Task& task, c
                double frame_rate, int k, std::optional<double> duration) {
   const py::gil_scoped_release without_gil;
   const Body mover = body ? *body : Body::from_stature(subject.stature_m, subject.sex);
-  return predict_transfer(corpus, subject, task, mover, {.frame_rate = frame_rate, .neighbours = k, .duration_s = duration});
+  return predict_transfer(corpus, subject, task, mover,
+                          {.frame_rate = frame_rate, .neighbours = k, .duration_s = duration});
+}
+
+py::list cross_validation(const Corpus& corpus, const std::vector<py::dict>& schemes, const std::string& leave_out) {
+  if (leave_out != "motion" && leave_out != "subject") {
+    throw std::invalid_argument("leave_out is '" + leave_out + "'; it must be 'motion' or 'subject'");
+  }
+  std::vector<Scheme> wanted;
+  for (const py::dict& scheme : schemes) {
+    for (const auto& [key, value] : scheme) {
+      if (py::cast<std::string>(key) != "k")
+        throw std::invalid_argument("schemes: there is no setting named " + py::cast<std::string>(key));
+    }
+    wanted.push_back({.neighbours = scheme.contains("k") ? scheme["k"].cast<int>() : Scheme{}.neighbours});
+  }
+  std::vector<SchemeError> rows;
+  {
+    const py::gil_scoped_release without_gil;
+    rows = cross_validate(corpus, wanted, leave_out == "motion" ? LeaveOut::motion : LeaveOut::subject);
+  }
+  py::list table;
+  for (const SchemeError& row : rows) {
+    py::dict entry;
+    entry["k"] = row.scheme.neighbours;
+    entry["motions"] = row.motions;
+    entry["out_of_reach"] = row.out_of_reach;
+    entry["median"] = row.median_m;
+    entry["quartiles"] = py::make_tuple(row.lower_quartile_m, row.upper_quartile_m);
+    table.append(entry);
+  }
+  return table;
 }
 
 void bind_task(py::module_& m) {
-  py::class_<Box>(m, "Box", "A box: origin at the centre of its base, handles on its sides along its x. Metres, kilograms.")
+  py::class_<Box>(m, "Box",
+                  "A box: origin at the centre of its base, handles on its sides along its x. Metres, kilograms.")
       .def(py::init(&make_box), py::arg("width") = 0.36, py::arg("depth") = 0.28, py::arg("height") = 0.24,
            py::arg("handle_height") = py::none(), py::arg("mass") = 5.0, py::arg("grip_distance") = py::none(),
-           "handle_height defaults to half the height, grip_distance (between the centres of the grips) to the width + 0.04.")
+           "handle_height defaults to half the height, grip_distance (between the centres of the grips) to the width + "
+           "0.04.")
       .def_readonly("width", &Box::width_m)
       .def_readonly("depth", &Box::depth_m)
       .def_readonly("height", &Box::height_m)
@@ -84,18 +118,22 @@ void bind_task(py::module_& m) {
       .def_readonly("mass", &Box::mass_kg)
       .def("__repr__", [](const Box& b) {
         std::ostringstream out;
-        out << "Box(width=" << b.width_m << ", depth=" << b.depth_m << ", height=" << b.height_m << ", mass=" << b.mass_kg << ")";
+        out << "Box(width=" << b.width_m << ", depth=" << b.depth_m << ", height=" << b.height_m
+            << ", mass=" << b.mass_kg << ")";
         return out.str();
       });
 
   py::class_<Task>(m, "Task", "A box goes from home to target, held by both hands.")
-      .def(py::init([](const DoubleArray& home, const DoubleArray& target, const Box& object, double home_yaw, double target_yaw) {
+      .def(py::init([](const DoubleArray& home, const DoubleArray& target, const Box& object, double home_yaw,
+                       double target_yaw) {
              const Task task{to_vec3(home, "home"), to_vec3(target, "target"), home_yaw, target_yaw, object};
              check(task);
              return task;
            }),
-           py::arg("home"), py::arg("target"), py::arg("object") = Box{}, py::arg("home_yaw") = 0.0, py::arg("target_yaw") = 0.0,
-           "home, target: (3,), origin of the box at the start and the end, body frame; yaws in radians about the vertical.")
+           py::arg("home"), py::arg("target"), py::arg("object") = Box{}, py::arg("home_yaw") = 0.0,
+           py::arg("target_yaw") = 0.0,
+           "home, target: (3,), origin of the box at the start and the end, body frame; yaws in radians about the "
+           "vertical.")
       .def_property_readonly("home", [](const Task& t) { return vec3_array(t.home); })
       .def_property_readonly("target", [](const Task& t) { return vec3_array(t.target); })
       .def_readonly("home_yaw", &Task::home_yaw_rad)
@@ -115,16 +153,20 @@ void bind_results(py::module_& m) {
       .def_readonly("origin", &Neighbour::origin)
       .def_readonly("mirrored", &Neighbour::is_mirrored)
       .def_readonly("weight", &Neighbour::weight)
-      .def_property_readonly("distances", [](const Neighbour& n) {
-        py::dict out;
-        out["target"] = n.target_distance_m;
-        out["home"] = n.home_distance_m;
-        out["stature"] = n.stature_difference_m;
-        return out;
-      }, "metres: between the targets, the homes, the statures")
+      .def_property_readonly(
+          "distances",
+          [](const Neighbour& n) {
+            py::dict out;
+            out["target"] = n.target_distance_m;
+            out["home"] = n.home_distance_m;
+            out["stature"] = n.stature_difference_m;
+            return out;
+          },
+          "metres: between the targets, the homes, the statures")
       .def("__repr__", [](const Neighbour& n) {
         std::ostringstream out;
-        out << "Neighbour(id=" << n.id << ", weight=" << n.weight << ", origin='" << n.origin << (n.is_mirrored ? "', mirrored)" : "')");
+        out << "Neighbour(id=" << n.id << ", weight=" << n.weight << ", origin='" << n.origin
+            << (n.is_mirrored ? "', mirrored)" : "')");
         return out.str();
       });
 
@@ -135,27 +177,35 @@ void bind_results(py::module_& m) {
       .def_readonly("frames", &Correction::frames)
       .def("__repr__", [](const Correction& c) {
         std::ostringstream out;
-        out << "Correction('" << c.name << "', metres=" << c.amount_m << ", radians=" << c.amount_rad << ", frames=" << c.frames << ")";
+        out << "Correction('" << c.name << "', metres=" << c.amount_m << ", radians=" << c.amount_rad
+            << ", frames=" << c.frames << ")";
         return out.str();
       });
 
   py::class_<Motion>(m, "Motion", "A predicted motion in the body frame.")
-      .def_property_readonly("joints", [](const Motion&) { return py::module_::import("reachcast_core").attr("JOINTS"); })
+      .def_property_readonly("joints",
+                             [](const Motion&) { return py::module_::import("reachcast_core").attr("JOINTS"); })
       .def_property_readonly("positions", &positions, "(F, 27, 3), metres, body frame")
-      .def_property_readonly("times", [](const Motion& motion) { return numbers_array(motion.times_s); }, "(F,), seconds")
+      .def_property_readonly(
+          "times", [](const Motion& motion) { return numbers_array(motion.times_s); }, "(F,), seconds")
       .def_property_readonly("box_positions", &box_positions, "(F, 3), origin of the box")
       .def_property_readonly("box_quaternions", &box_quaternions, "(F, 4), w, x, y, z")
       .def_property_readonly("events", &events, "frame index of grasp, lift_off, placed, release, end")
-      .def_property_readonly("phases", [](const Motion& motion) {
-        return std::vector<std::tuple<std::string, std::size_t, std::size_t>>{{"transfer", motion.events.lift_off, motion.events.placed}};
-      }, "list of (phase, first frame, last frame)")
+      .def_property_readonly(
+          "phases",
+          [](const Motion& motion) {
+            return std::vector<std::tuple<std::string, std::size_t, std::size_t>>{
+                {"transfer", motion.events.lift_off, motion.events.placed}};
+          },
+          "list of (phase, first frame, last frame)")
       .def_readonly("duration", &Motion::duration_s, "seconds from lift_off to placed")
       .def_readonly("neighbours", &Motion::neighbours)
       .def_property_readonly("outside_data", [](const Motion& motion) { return !motion.outside_data.empty(); })
       .def_readonly("outside_reasons", &Motion::outside_data)
       .def_readonly("corrections", &Motion::corrections)
       .def("__repr__", [](const Motion& motion) {
-        return "Motion(" + std::to_string(motion.postures.size()) + " frames, " + std::to_string(motion.neighbours.size()) + " neighbours)";
+        return "Motion(" + std::to_string(motion.postures.size()) + " frames, " +
+               std::to_string(motion.neighbours.size()) + " neighbours)";
       });
 }
 
@@ -164,8 +214,15 @@ void bind_results(py::module_& m) {
 void bind_predict(py::module_& m) {
   bind_task(m);
   bind_results(m);
-  m.def("predict", &predict, py::arg("corpus"), py::arg("subject"), py::arg("task"), py::arg("body") = py::none(), py::kw_only(),
-        py::arg("frame_rate") = 24.0, py::arg("k") = 5, py::arg("duration") = py::none(),
-        "The transfer phase: Corpus, Subject, Task, Body -> Motion. Without a body, published proportions of the subject. k: "
+  m.def("predict", &predict, py::arg("corpus"), py::arg("subject"), py::arg("task"), py::arg("body") = py::none(),
+        py::kw_only(), py::arg("frame_rate") = 24.0, py::arg("k") = 5, py::arg("duration") = py::none(),
+        "The transfer phase: Corpus, Subject, Task, Body -> Motion. Without a body, published proportions of the "
+        "subject. k: "
         "neighbours in the mean; duration: seconds of the transfer, else the neighbours' mean.");
+  m.def("cross_validate", &cross_validation, py::arg("corpus"), py::arg("schemes"), py::arg("leave_out") = "motion",
+        "How well transfers are predicted from the others. schemes: list of dicts with k; leave_out: 'motion' (and its "
+        "mirror "
+        "image) or 'subject'. Returns one dict per scheme: k, motions, out_of_reach, median and quartiles in metres of "
+        "the mean "
+        "distance over time and 23 joints, on the proportions of the subject's stature.");
 }

@@ -8,11 +8,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -26,14 +26,18 @@ using Points = std::vector<Vec3>;
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-[[nodiscard]] inline Eigen::Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
-[[nodiscard]] inline Vec3 to_glm(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+[[nodiscard]] inline Eigen::Vector3d to_eigen(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+[[nodiscard]] inline Vec3 to_glm(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
 [[nodiscard]] inline bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// The smallest rotation that turns one direction into another; neither may be zero. For opposite directions, half a turn
-/// about what is nearest to the vertical.
+/// The smallest rotation that turns one direction into another; neither may be zero. For opposite directions, half a
+/// turn about what is nearest to the vertical.
 [[nodiscard]] inline Quat smallest_rotation(const Vec3& from, const Vec3& to) {
   const Vec3 a = glm::normalize(from), b = glm::normalize(to);
   const double cosine = glm::dot(a, b);

@@ -79,7 +79,9 @@ constexpr std::array<Segment, 12> kSegments{{
     {"head", Joint::tragion, Joint::nasion, false},
 }};
 
-[[noreturn]] void fail(const std::string& what) { throw std::invalid_argument(what); }
+[[noreturn]] void fail(const std::string& what) {
+  throw std::invalid_argument(what);
+}
 
 std::string number(double value) {
   std::ostringstream out;
@@ -104,7 +106,8 @@ Posture rebuilt(const Posture& old, const std::map<std::string_view, double>& le
   // l5s1 stays above the hips at the wanted distance from each of them.
   const double half = 0.5 * lengths.at("pelvis_width");
   const double pelvis = lengths.at("pelvis");
-  if (pelvis <= half) fail("segment pelvis is " + number(pelvis) + " m; it must exceed half of pelvis_width, " + number(half) + " m");
+  if (pelvis <= half)
+    fail("segment pelvis is " + number(pelvis) + " m; it must exceed half of pelvis_width, " + number(half) + " m");
   at(Joint::l5s1) = mid_hip + glm::normalize(was(Joint::l5s1) - mid_hip) * std::sqrt(pelvis * pelvis - half * half);
   const double tall = lengths.at("trunk") / glm::distance(was(Joint::l5s1), was(Joint::c7t1));
   for (const Joint j : {Joint::c7t1, Joint::suprasternale, Joint::left_clavicle, Joint::right_clavicle}) {
@@ -125,7 +128,8 @@ Posture rebuilt(const Posture& old, const std::map<std::string_view, double>& le
       at(j) = at(grip) + (was(j) - was(grip));
     }
   }
-  const Vec3 drop = 0.5 * (at(Joint::left_ball) + at(Joint::right_ball) - was(Joint::left_ball) - was(Joint::right_ball));
+  const Vec3 drop =
+      0.5 * (at(Joint::left_ball) + at(Joint::right_ball) - was(Joint::left_ball) - was(Joint::right_ball));
   const Vec3 ankles = 0.5 * (at(Joint::left_ankle) + at(Joint::right_ankle));
   for (Vec3& p : fresh) p -= Vec3(ankles.x, ankles.y, drop.z);
   return fresh;
@@ -157,19 +161,18 @@ Body Body::from_stature(double stature_m, std::optional<Sex> sex) {
   const auto mix = [&](double f, double m) { return f + male * (m - f); };
   Posture posture{};
   for (const Landmark& mark : kLandmarks) {
-    set_pair(posture, mark.joint,
-             stature_m * Vec3(mix(mark.side_female, mark.side_male), mark.forward, mark.up));
+    set_pair(posture, mark.joint, stature_m * Vec3(mix(mark.side_female, mark.side_male), mark.forward, mark.up));
   }
   set_pair(posture, Joint::right_shoulder,
            stature_m * Vec3(mix(kShoulderSideFemale, kShoulderSideMale), kShoulderForward, kShoulderUp));
-  set_pair(posture, Joint::right_clavicle,
-           stature_m * Vec3(kClavicleRootSide, kClavicleRootForward, kClavicleRootUp));
+  set_pair(posture, Joint::right_clavicle, stature_m * Vec3(kClavicleRootSide, kClavicleRootForward, kClavicleRootUp));
   set_arm(posture, stature_m);
   return from_posture(posture, stature_m);
 }
 
 Body Body::from_posture(const Posture& posture, double stature_m) {
-  if (!(stature_m > 0.0) || !std::isfinite(stature_m)) fail("stature is " + number(stature_m) + " m; it must be positive");
+  if (!(stature_m > 0.0) || !std::isfinite(stature_m))
+    fail("stature is " + number(stature_m) + " m; it must be positive");
   for (std::size_t j = 0; j < kJointCount; ++j) {
     if (!is_finite(posture[j])) fail("posture: joint " + std::string(joint_names()[j]) + " is not finite");
   }

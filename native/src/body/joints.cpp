@@ -8,15 +8,18 @@ namespace reachcast {
 
 const std::array<std::string_view, kJointCount>& joint_names() {
   static constexpr std::array<std::string_view, kJointCount> names{
-      "left_ball",      "left_ankle",      "left_knee",      "left_hip",   "left_shoulder", "left_elbow",
-      "left_wrist",     "left_hand_front", "left_hand_back", "right_ball", "right_ankle",   "right_knee",
-      "right_hip",      "right_shoulder",  "right_elbow",    "right_wrist", "right_hand_front", "right_hand_back",
-      "l5s1",           "c7t1",            "suprasternale",  "tragion",    "nasion",        "left_grip",
-      "right_grip",     "left_clavicle",   "right_clavicle"};
+      "left_ball",     "left_ankle",       "left_knee",       "left_hip",       "left_shoulder",
+      "left_elbow",    "left_wrist",       "left_hand_front", "left_hand_back", "right_ball",
+      "right_ankle",   "right_knee",       "right_hip",       "right_shoulder", "right_elbow",
+      "right_wrist",   "right_hand_front", "right_hand_back", "l5s1",           "c7t1",
+      "suprasternale", "tragion",          "nasion",          "left_grip",      "right_grip",
+      "left_clavicle", "right_clavicle"};
   return names;
 }
 
-std::string_view joint_name(Joint joint) { return joint_names()[index(joint)]; }
+std::string_view joint_name(Joint joint) {
+  return joint_names()[index(joint)];
+}
 
 std::optional<Joint> find_joint(std::string_view name) {
   const auto& names = joint_names();

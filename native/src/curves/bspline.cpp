@@ -15,7 +15,9 @@ constexpr int kSpans = static_cast<int>(kBasisCount) - kDegree;  // 5 equal knot
 constexpr double kPull = 1e-5;  // relative weight of the second differences in solve_smooth: below any measurement
 
 /// Knots of the clamped basis of the given degree on the same spans.
-double knot(int i, int degree) { return std::clamp(static_cast<double>(i - degree) / kSpans, 0.0, 1.0); }
+double knot(int i, int degree) {
+  return std::clamp(static_cast<double>(i - degree) / kSpans, 0.0, 1.0);
+}
 
 /// All basis functions of `degree` at t by the recurrence of Cox and de Boor; `out` holds kSpans + degree values.
 template <std::size_t N>
@@ -43,7 +45,8 @@ BasisRow bspline_row(double t) {
 }
 
 BasisRow bspline_integral_row(double t) {
-  // Integral of B_j of degree 3 = (u_{j+4} - u_j)/4 * sum over i > j of B_i of degree 4 (its own knots start one earlier).
+  // Integral of B_j of degree 3 = (u_{j+4} - u_j)/4 * sum over i > j of B_i of degree 4 (its own knots start one
+  // earlier).
   std::array<double, kSpans + kDegree + 2> quartic;
   basis(std::clamp(t, 0.0, 1.0), kDegree + 1, quartic);
   BasisRow row;
@@ -57,7 +60,8 @@ BasisRow bspline_integral_row(double t) {
 
 Eigen::MatrixXd bspline_matrix(Eigen::Index count) {
   Eigen::MatrixXd rows(count, kBasisCount);
-  for (Eigen::Index f = 0; f < count; ++f) rows.row(f) = bspline_row(static_cast<double>(f) / static_cast<double>(count - 1));
+  for (Eigen::Index f = 0; f < count; ++f)
+    rows.row(f) = bspline_row(static_cast<double>(f) / static_cast<double>(count - 1));
   return rows;
 }
 

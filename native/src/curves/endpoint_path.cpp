@@ -17,11 +17,13 @@ constexpr double kShortestAxis_m = 0.01;
 
 EndpointPath fit_endpoint_path(std::span<const Vec3> points) {
   const auto count = static_cast<Eigen::Index>(points.size());
-  if (count < 4) throw std::invalid_argument("points holds " + std::to_string(count) + " points; a path needs at least 4");
+  if (count < 4)
+    throw std::invalid_argument("points holds " + std::to_string(count) + " points; a path needs at least 4");
   const Vec3 axis = points.back() - points.front();
   const double length = glm::length(axis);
   if (!(length >= kShortestAxis_m)) {
-    throw std::invalid_argument("points: start and end are " + std::to_string(length) + " m apart; a path needs at least 0.01 m");
+    throw std::invalid_argument("points: start and end are " + std::to_string(length) +
+                                " m apart; a path needs at least 0.01 m");
   }
   Eigen::MatrixXd integrals(count, kPathBasisCount), basis(count, kPathBasisCount);
   Eigen::MatrixXd covered(count, 1), deviation(count, 3);

@@ -9,14 +9,15 @@
 namespace reachcast {
 namespace {
 
-// Layout of MotionCode::coefficients: velocity (6), deviation x, y, z (6 each), then posture coordinates, 8 coefficients
-// each, coordinate by coordinate.
+// Layout of MotionCode::coefficients: velocity (6), deviation x, y, z (6 each), then posture coordinates, 8
+// coefficients each, coordinate by coordinate.
 constexpr Eigen::Index kPathLength = 4 * kPathBasisCount;
 
 void check(const Reach& reach) {
   const auto fail = [&](const std::string& what) { throw std::invalid_argument(reach.origin + ": " + what); };
   if (reach.frames() < 4) fail("the reach has " + std::to_string(reach.frames()) + " postures; at least 4 are needed");
-  if (!(reach.duration_s > 0.0)) fail("the duration is " + std::to_string(reach.duration_s) + " s; it must be positive");
+  if (!(reach.duration_s > 0.0))
+    fail("the duration is " + std::to_string(reach.duration_s) + " s; it must be positive");
   for (std::size_t f = 0; f < reach.frames(); ++f) {
     for (std::size_t j = 0; j < kJointCount; ++j) {
       if (!is_finite(reach.postures[f][j])) {
@@ -28,7 +29,9 @@ void check(const Reach& reach) {
 
 }  // namespace
 
-Eigen::Index code_length() { return kPathLength + kBasisCount * posture_coordinate_count(two_handed_linkage()); }
+Eigen::Index code_length() {
+  return kPathLength + kBasisCount * posture_coordinate_count(two_handed_linkage());
+}
 
 MotionCode encode_reach(const Reach& reach) {
   check(reach);

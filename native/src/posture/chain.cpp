@@ -14,8 +14,8 @@ namespace reachcast {
 namespace {
 
 constexpr double kReachTolerance_m = 1e-9;  // decode clamps this much: rounding of a distance computed elsewhere
-// A bend is the square root of a gap in the triangle inequality, so that rounding of 1e-16 would bend a straight or folded
-// chain by 1e-8. Gaps below this share of the chain's span count as none.
+// A bend is the square root of a gap in the triangle inequality, so that rounding of 1e-16 would bend a straight or
+// folded chain by 1e-8. Gaps below this share of the chain's span count as none.
 constexpr double kFlat = 1e-13;
 
 template <class... Parts>
@@ -43,7 +43,8 @@ Interval hinge_reach(double a, double b, const FlexionLimit& limit) {
   const auto across = [&](double flexion) {
     return std::sqrt(std::max(0.0, a * a + b * b + 2.0 * a * b * std::cos(flexion)));
   };
-  return {limit.max_rad >= kPi ? std::abs(a - b) : across(limit.max_rad), limit.min_rad <= 0.0 ? a + b : across(limit.min_rad)};
+  return {limit.max_rad >= kPi ? std::abs(a - b) : across(limit.max_rad),
+          limit.min_rad <= 0.0 ? a + b : across(limit.min_rad)};
 }
 
 void check_arguments(const std::vector<double>& lengths, const std::vector<std::size_t>& pivots) {
@@ -66,7 +67,8 @@ Chain::Chain(std::vector<double> lengths, std::vector<std::size_t> pivots, std::
     : lengths_(std::move(lengths)) {
   check_arguments(lengths_, pivots);
   for (const auto& [joint, limit] : limits) {
-    if (joint < 1 || joint >= lengths_.size()) fail("limits names joint ", joint, "; interior joints are 1 to ", lengths_.size() - 1);
+    if (joint < 1 || joint >= lengths_.size())
+      fail("limits names joint ", joint, "; interior joints are 1 to ", lengths_.size() - 1);
     if (!(limit.min_rad >= 0.0 && limit.min_rad <= limit.max_rad && limit.max_rad <= kPi)) {
       fail("limits of joint ", joint, " are ", limit.min_rad, " to ", limit.max_rad, "; they must rise within 0 to pi");
     }
@@ -94,12 +96,13 @@ int Chain::build(std::size_t first, std::size_t last, const std::vector<std::siz
   coordinate_count_ += static_cast<std::size_t>(node.stretches) + 3;
   node.proximal = build(first, node.pivot, order, limits, node.proximal_reach);
   node.distal = build(node.pivot, last, order, limits, node.distal_reach);
-  reach = {std::max({0.0, node.proximal_reach.lo - node.distal_reach.hi, node.distal_reach.lo - node.proximal_reach.hi}),
-           node.proximal_reach.hi + node.distal_reach.hi};
+  reach = {
+      std::max({0.0, node.proximal_reach.lo - node.distal_reach.hi, node.distal_reach.lo - node.proximal_reach.hi}),
+      node.proximal_reach.hi + node.distal_reach.hi};
   if (const auto limit = limits.find(node.pivot); limit != limits.end()) {
     if (node.stretches != 0) {
-      fail("limits of joint ", node.pivot, " need it to be the pivot between two single links; here its sub-chain is joints ",
-           first, " to ", last);
+      fail("limits of joint ", node.pivot,
+           " need it to be the pivot between two single links; here its sub-chain is joints ", first, " to ", last);
     }
     reach = hinge_reach(lengths_[first], lengths_[first + 1], limit->second);
   }
@@ -132,7 +135,8 @@ void Chain::encode(std::span<const Vec3> points, std::span<double> coordinates) 
   }
 }
 
-void Chain::decode(const Vec3& start, const Vec3& end, std::span<const double> coordinates, std::span<Vec3> points) const {
+void Chain::decode(const Vec3& start, const Vec3& end, std::span<const double> coordinates,
+                   std::span<Vec3> points) const {
   const double across = glm::distance(start, end);
   if (!(across <= root_reach_.hi + kReachTolerance_m && across >= root_reach_.lo - kReachTolerance_m)) {
     fail("the ends are ", across, " m apart; the chain spans ", root_reach_.lo, " to ", root_reach_.hi, " m");

@@ -50,9 +50,9 @@ Vec3 brought_within(const Interval& reach, const Vec3& root, const Vec3& anchor,
   return anchor + Vec3(away.x, away.y, std::sqrt(lo * lo - level * level));
 }
 
-constexpr std::array kTrunk{Joint::left_hip,      Joint::right_hip,     Joint::l5s1,           Joint::c7t1,
-                            Joint::suprasternale, Joint::left_clavicle, Joint::right_clavicle, Joint::left_shoulder,
-                            Joint::right_shoulder, Joint::tragion,      Joint::nasion};
+constexpr std::array kTrunk{Joint::left_hip,       Joint::right_hip,     Joint::l5s1,           Joint::c7t1,
+                            Joint::suprasternale,  Joint::left_clavicle, Joint::right_clavicle, Joint::left_shoulder,
+                            Joint::right_shoulder, Joint::tragion,       Joint::nasion};
 
 /// All roots by the mean of the pulls that there are.
 void shift(Corners& roots, const Corners& wanted) {
@@ -64,7 +64,9 @@ void shift(Corners& roots, const Corners& wanted) {
   for (Vec3& root : roots) root += sum / std::max(pulls, 1.0);
 }
 
-double angle_of(const Mat3& r) { return std::acos(std::clamp(0.5 * (r[0][0] + r[1][1] + r[2][2] - 1.0), -1.0, 1.0)); }
+double angle_of(const Mat3& r) {
+  return std::acos(std::clamp(0.5 * (r[0][0] + r[1][1] + r[2][2] - 1.0), -1.0, 1.0));
+}
 
 }  // namespace
 
@@ -87,7 +89,8 @@ Posture Holder::hold(const Decoded& decoded, const Anchors& anchors, const Load&
     for (std::size_t i = 0; i < kLimbCount; ++i) span_limb(limbs_[i], chains_[i], decoded.planes[i], ends[i], posture);
     place_hands(body_, decoded.wrist_from_grip, posture);
     for (const std::size_t side : {0u, 1u}) {  // the foot goes with its ankle
-      posture[index(side == 0 ? Joint::left_ball : Joint::right_ball)] = anchors.ball[side] + posture[index(limbs_[side].end)] - ends[side];
+      posture[index(side == 0 ? Joint::left_ball : Joint::right_ball)] =
+          anchors.ball[side] + posture[index(limbs_[side].end)] - ends[side];
     }
     const Vec3 excess = beyond_support(centre_of_mass(posture, body_mass_kg_, load), anchors);
     report.unbalanced_m = glm::length(excess);
@@ -125,7 +128,8 @@ void Holder::bring_within_reach(const Corners& before, Corners& roots, const Cor
 void Holder::measure_shortfall(Corners& roots, const Corners& ends, HoldReport& report) const {
   Corners wanted;
   if (pulled_roots(roots, ends, kLimbCount, wanted) < kMargin_m) return;
-  for (int round = 0; round < kShiftRounds && pulled_roots(roots, ends, 2, wanted) > kTolerance_m; ++round) shift(roots, wanted);
+  for (int round = 0; round < kShiftRounds && pulled_roots(roots, ends, 2, wanted) > kTolerance_m; ++round)
+    shift(roots, wanted);
   (void)pulled_roots(roots, ends, kLimbCount, wanted);
   for (std::size_t i = 0; i < kLimbCount; ++i) {
     const double gap = glm::distance(wanted[i], roots[i]);

@@ -14,19 +14,23 @@ Linkage make_two_handed() {
   using enum Joint;
   Linkage linkage;
   linkage.primary = {"primary",
-                     {left_ball, left_ankle, left_knee, left_hip, l5s1, right_clavicle, right_shoulder, right_elbow, right_wrist, right_grip},
+                     {left_ball, left_ankle, left_knee, left_hip, l5s1, right_clavicle, right_shoulder, right_elbow,
+                      right_wrist, right_grip},
                      {right_clavicle, left_hip, right_shoulder, right_wrist, left_ankle},
                      {{right_elbow, kElbow}, {left_knee, kKnee}}};
   linkage.parts = {{"pelvis", left_hip, l5s1, right_hip, {}},
                    {"chest", l5s1, right_clavicle, c7t1, {suprasternale, left_clavicle}}};
   linkage.limbs = {{{left_hip, left_knee, left_ankle, kKnee, 0.2},
-                   {right_hip, right_knee, right_ankle, kKnee, 0.2},
-                   {left_shoulder, left_elbow, left_wrist, kElbow, 1.0},
-                   {right_shoulder, right_elbow, right_wrist, kElbow, 1.0}}};
+                    {right_hip, right_knee, right_ankle, kKnee, 0.2},
+                    {left_shoulder, left_elbow, left_wrist, kElbow, 1.0},
+                    {right_shoulder, right_elbow, right_wrist, kElbow, 1.0}}};
   const std::size_t chest = 1;
-  linkage.pointers = {{left_clavicle, left_shoulder, chest}, {right_clavicle, right_shoulder, chest},
-                      {c7t1, tragion, chest},                {tragion, nasion, chest},
-                      {left_grip, left_wrist, PointerSpec::kObject}, {right_grip, right_wrist, PointerSpec::kObject}};
+  linkage.pointers = {{left_clavicle, left_shoulder, chest},
+                      {right_clavicle, right_shoulder, chest},
+                      {c7t1, tragion, chest},
+                      {tragion, nasion, chest},
+                      {left_grip, left_wrist, PointerSpec::kObject},
+                      {right_grip, right_wrist, PointerSpec::kObject}};
   return linkage;
 }
 

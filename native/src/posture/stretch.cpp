@@ -17,7 +17,9 @@ double fraction(double value, double min, double max) {
   return max - min < kPoint ? 0.5 : std::clamp((value - min) / (max - min), 0.0, 1.0);
 }
 
-double blend(double q, double min, double max) { return max - min < kPoint ? 0.5 * (min + max) : min + q * (max - min); }
+double blend(double q, double min, double max) {
+  return max - min < kPoint ? 0.5 * (min + max) : min + q * (max - min);
+}
 
 }  // namespace
 
@@ -33,7 +35,10 @@ double from_logit(double x) {
 }
 
 StretchDomain::StretchDomain(const Interval& proximal, const Interval& distal, double c)
-    : p_lo_(proximal.lo), p_hi_(proximal.hi), d_lo_(distal.lo), d_hi_(distal.hi),
+    : p_lo_(proximal.lo),
+      p_hi_(proximal.hi),
+      d_lo_(distal.lo),
+      d_hi_(distal.hi),
       c_(std::clamp(c, std::max({0.0, proximal.lo - distal.hi, distal.lo - proximal.hi}), proximal.hi + distal.hi)) {}
 
 StretchDomain::Range StretchDomain::sum_range() const {
@@ -89,11 +94,17 @@ StretchDomain::Range StretchDomain::proximal_range() const {
   return {min, std::max(min, std::min(p_hi_, c_ + d_hi_))};
 }
 
-double StretchDomain::distal_fraction(double ld) const { return fraction(ld, distal_range().min, distal_range().max); }
-double StretchDomain::distal_length(double q) const { return blend(q, distal_range().min, distal_range().max); }
+double StretchDomain::distal_fraction(double ld) const {
+  return fraction(ld, distal_range().min, distal_range().max);
+}
+double StretchDomain::distal_length(double q) const {
+  return blend(q, distal_range().min, distal_range().max);
+}
 double StretchDomain::proximal_fraction(double lp) const {
   return fraction(lp, proximal_range().min, proximal_range().max);
 }
-double StretchDomain::proximal_length(double q) const { return blend(q, proximal_range().min, proximal_range().max); }
+double StretchDomain::proximal_length(double q) const {
+  return blend(q, proximal_range().min, proximal_range().max);
+}
 
 }  // namespace reachcast

@@ -47,8 +47,10 @@ Posture twisted(const Posture& posture, double yaw_rad) {
   using enum Joint;
   const Vec3 feet = 0.5 * (posture[index(left_ankle)] + posture[index(right_ankle)]);
   Posture out = posture;
-  for (const Joint j : {left_hip, right_hip, l5s1}) out[index(j)] = feet + turned(posture[index(j)] - feet, kPelvisShare * yaw_rad);
-  for (const Joint j : {c7t1, suprasternale, left_clavicle, right_clavicle, left_shoulder, right_shoulder, tragion, nasion}) {
+  for (const Joint j : {left_hip, right_hip, l5s1})
+    out[index(j)] = feet + turned(posture[index(j)] - feet, kPelvisShare * yaw_rad);
+  for (const Joint j :
+       {c7t1, suprasternale, left_clavicle, right_clavicle, left_shoulder, right_shoulder, tragion, nasion}) {
     out[index(j)] = out[index(l5s1)] + turned(posture[index(j)] - posture[index(l5s1)], kChestShare * yaw_rad);
   }
   for (std::size_t i = 0; i < kLimbCount; ++i) {
@@ -56,9 +58,11 @@ Posture twisted(const Posture& posture, double yaw_rad) {
     const bool is_arm = i >= 2;
     const LimbPlane plane = plane_of(limb, posture);
     const Vec3 end = is_arm ? feet + turned(posture[index(limb.end)] - feet, yaw_rad) : posture[index(limb.end)];
-    span_limb(limb, chain_of(limb, posture, false), {turned(plane.normal, limb.turn * yaw_rad), turned(plane.axis, limb.turn * yaw_rad)}, end, out);
+    span_limb(limb, chain_of(limb, posture, false),
+              {turned(plane.normal, limb.turn * yaw_rad), turned(plane.axis, limb.turn * yaw_rad)}, end, out);
     for (const Joint j : carried_by_ends()[i]) {
-      out[index(j)] = out[index(limb.end)] + turned(posture[index(j)] - posture[index(limb.end)], is_arm ? yaw_rad : 0.0);
+      out[index(j)] =
+          out[index(limb.end)] + turned(posture[index(j)] - posture[index(limb.end)], is_arm ? yaw_rad : 0.0);
     }
   }
   return out;

@@ -23,8 +23,8 @@ Vec3 within_reach(const Chain& chain, const Vec3& start, const Vec3& end) {
   return start + away * wanted;
 }
 
-void decode_chain(const ChainSpec& spec, const Chain& chain, const double* coordinates, const Vec3& start, const Vec3& end,
-                  Posture& posture) {
+void decode_chain(const ChainSpec& spec, const Chain& chain, const double* coordinates, const Vec3& start,
+                  const Vec3& end, Posture& posture) {
   Points points(spec.joints.size());
   chain.decode(start, within_reach(chain, start, end), {coordinates, chain.coordinate_count()}, points);
   for (std::size_t i = 0; i < points.size(); ++i) posture[index(spec.joints[i])] = points[i];
@@ -51,7 +51,8 @@ double* encode_trunk(const Linkage& linkage, const Posture& posture, double* out
   encode_chain(linkage.primary, posture, out);
   out += coordinates_of(linkage.primary);
   for (const RigidSpec& part : linkage.parts) {
-    const Vec3 base = posture[index(part.b)] - posture[index(part.a)], apex = posture[index(part.apex)] - posture[index(part.a)];
+    const Vec3 base = posture[index(part.b)] - posture[index(part.a)],
+               apex = posture[index(part.apex)] - posture[index(part.a)];
     const double size = glm::length(base) * glm::length(apex);
     const Vec3 normal = size > 0.0 ? glm::cross(base, apex) / size : Vec3(0.0);
     for (int i = 0; i < 3; ++i) *out++ = normal[i];
@@ -61,7 +62,9 @@ double* encode_trunk(const Linkage& linkage, const Posture& posture, double* out
 
 /// How a part is turned in `posture` against a stand.
 Mat3 turn_of(const RigidSpec& part, const Posture& stand, const Posture& posture) {
-  const auto frame = [&](const Posture& p) { return triangle_frame(p[index(part.a)], p[index(part.b)], p[index(part.apex)]); };
+  const auto frame = [&](const Posture& p) {
+    return triangle_frame(p[index(part.a)], p[index(part.b)], p[index(part.apex)]);
+  };
   return frame(posture) * glm::transpose(frame(stand));
 }
 
@@ -74,7 +77,8 @@ Mat3 object_frame(const Posture& posture) {
 }
 
 Mat3 pointer_frame(const Linkage& linkage, const PointerSpec& pointer, const Posture& stand, const Posture& posture) {
-  return pointer.part == PointerSpec::kObject ? object_frame(posture) : turn_of(linkage.parts[pointer.part], stand, posture);
+  return pointer.part == PointerSpec::kObject ? object_frame(posture)
+                                              : turn_of(linkage.parts[pointer.part], stand, posture);
 }
 
 /// The stand against which recordings are measured: they bring none of their own, and their trunk landmarks follow
@@ -104,7 +108,8 @@ Posture mean_trunk(const Linkage& linkage, const Body& body, const Posture& one,
   Posture mean{};
   const Vec3 centre = 0.5 * (one[index(Joint::l5s1)] + other[index(Joint::l5s1)]);
   for (const RigidSpec& part : linkage.parts) {
-    const Quat a = glm::quat_cast(turn_of(part, body.posture(), one)), b = glm::quat_cast(turn_of(part, body.posture(), other));
+    const Quat a = glm::quat_cast(turn_of(part, body.posture(), one)),
+               b = glm::quat_cast(turn_of(part, body.posture(), other));
     const Mat3 rotation = glm::mat3_cast(glm::normalize(glm::dot(a, b) < 0.0 ? a - b : a + b));
     const auto place = [&](Joint j) { mean[index(j)] = centre + rotation * (body.at(j) - body.at(Joint::l5s1)); };
     for (const Joint j : {part.a, part.b, part.apex}) place(j);
@@ -174,7 +179,9 @@ Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded) 
 }
 
 BodyLinkage::BodyLinkage(const Linkage& linkage, const Body& body)
-    : linkage_(linkage), body_(body), mirror_body_(Body::from_posture(mirrored(body.posture()), body.stature_m())),
+    : linkage_(linkage),
+      body_(body),
+      mirror_body_(Body::from_posture(mirrored(body.posture()), body.stature_m())),
       primary_(chain_of(linkage.primary, body.posture(), true)),
       mirror_primary_(chain_of(linkage.primary, mirror_body_.posture(), true)) {}
 
@@ -183,8 +190,9 @@ Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates
   const Anchors anchors = with_grips_turned(wanted, -yaw);
   const std::size_t trunk_count = primary_.coordinate_count() + 3 * linkage_.parts.size();
   const double* next = coordinates.data();
-  Posture posture = mean_trunk(linkage_, body_, trunk_of(next, body_, primary_, anchors),
-                               mirrored(trunk_of(next + trunk_count, mirror_body_, mirror_primary_, mirrored(anchors))));
+  Posture posture =
+      mean_trunk(linkage_, body_, trunk_of(next, body_, primary_, anchors),
+                 mirrored(trunk_of(next + trunk_count, mirror_body_, mirror_primary_, mirrored(anchors))));
   next += 2 * trunk_count;
   place_pointed(anchors, next, posture);
   next += 3 * linkage_.pointers.size();
@@ -203,7 +211,8 @@ Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates
   return decoded;
 }
 
-Posture BodyLinkage::trunk_of(const double* stored, const Body& body, const Chain& primary, const Anchors& anchors) const {
+Posture BodyLinkage::trunk_of(const double* stored, const Body& body, const Chain& primary,
+                              const Anchors& anchors) const {
   Posture posture{};
   decode_chain(linkage_.primary, primary, stored, anchors.ball[0], anchors.grip[1], posture);
   stored += primary.coordinate_count();
@@ -222,7 +231,8 @@ void BodyLinkage::place_pointed(const Anchors& anchors, const double* stored, Po
     const double size = glm::length(local);
     const Vec3 direction = size > 1e-9 ? local / size : glm::normalize(body_.at(pointer.to) - body_.at(pointer.from));
     const Mat3 frame = pointer_frame(linkage_, pointer, body_.posture(), posture);
-    posture[index(pointer.to)] = posture[index(pointer.from)] + frame * direction * body_.distance(pointer.from, pointer.to);
+    posture[index(pointer.to)] =
+        posture[index(pointer.from)] + frame * direction * body_.distance(pointer.from, pointer.to);
     stored += 3;
   }
 }
@@ -233,7 +243,8 @@ void place_hands(const Body& body, const std::array<Vec3, 2>& wrist_from_grip, P
     const Joint wrist = left ? left_wrist : right_wrist;
     const Vec3 along = -wrist_from_grip[left ? 0 : 1];
     posture[index(left ? left_grip : right_grip)] = posture[index(wrist)] + along;
-    for (const Joint j : left ? std::array{left_hand_front, left_hand_back} : std::array{right_hand_front, right_hand_back}) {
+    for (const Joint j :
+         left ? std::array{left_hand_front, left_hand_back} : std::array{right_hand_front, right_hand_back}) {
       posture[index(j)] = posture[index(wrist)] + glm::normalize(along) * body.distance(wrist, j);
     }
   }

@@ -9,13 +9,17 @@ namespace {
 
 constexpr double kHalfShelf_m = 0.15;  // of a usual shelf's depth, beyond the box's own
 constexpr double kClearance_m = 0.02;
-constexpr double kOverEdge_m = 0.10;   // within this distance of its place the box sinks from the clearance to zero
+constexpr double kOverEdge_m = 0.10;  // within this distance of its place the box sinks from the clearance to zero
 constexpr double kMostRise_m = 0.15;
 
 /// t^4 (1 - t)^2, scaled to a peak of 1 at t = 2/3.
-double late_bump(double t) { return t * t * t * t * (1.0 - t) * (1.0 - t) * 45.5625; }
+double late_bump(double t) {
+  return t * t * t * t * (1.0 - t) * (1.0 - t) * 45.5625;
+}
 
-double level_distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+double level_distance(const Vec3& a, const Vec3& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
 
 double rise_for(std::span<const BoxPose> path, const Vec3& place, double radius, bool at_end) {
   double rise = 0.0;

@@ -25,8 +25,7 @@ std::vector<std::size_t> ranks(const std::vector<double>& values) {
 
 }  // namespace
 
-std::vector<Neighbour> nearest_motions(std::span<const MotionSummary> motions, const Query& query, End end,
-                                       int k) {
+std::vector<Neighbour> nearest_motions(std::span<const MotionSummary> motions, const Query& query, End end, int k) {
   if (k < 1) throw std::invalid_argument("k is " + std::to_string(k) + "; it must be at least 1");
   std::vector<Neighbour> candidates;
   std::vector<double> task, stature;

@@ -11,13 +11,14 @@
 #include "reachcast/posture/hold.hpp"
 #include "reachcast/posture/linkage.hpp"
 #include "reachcast/predict/approach.hpp"
+#include "reachcast/predict/blend.hpp"
 
 namespace reachcast {
 namespace {
 
-constexpr double kPause_s = 0.25;     // hands on the box before it leaves and after it stands
-constexpr double kAfter_s = 0.4;      // held pose after letting go
-constexpr double kAnticipation = 0.2; // share of the transfer over which the body gets going and comes to rest
+constexpr double kPause_s = 0.25;             // hands on the box before it leaves and after it stands
+constexpr double kAfter_s = 0.4;              // held pose after letting go
+constexpr double kAnticipation = 0.2;         // share of the transfer over which the body gets going and comes to rest
 constexpr double kUsualBodyMassIndex = 24.0;  // kg/m^2, where the subject's mass is not known
 constexpr double kFarFromData_m = 0.25;
 constexpr double kStatureMargin_m = 0.03;
@@ -41,49 +42,8 @@ void check(const Subject& subject, const PredictOptions& options) {
   }
 }
 
-Vec3 hold_point(const Box& box, const Vec3& place) { return place + Vec3(0, 0, box.handle_height_m); }
-
-/// Weighted mean of the neighbours' codes; paths are carried onto the wanted axis first.
-MotionCode mean_code(const Corpus& corpus, const std::vector<Neighbour>& neighbours, const Query& query) {
-  std::vector<std::int64_t> ids;
-  for (const Neighbour& n : neighbours) ids.push_back(n.id);
-  const std::vector<StoredMotion> stored = corpus.load(ids);
-  MotionCode mean;
-  mean.phase = query.phase;
-  mean.home = query.home;
-  mean.target = query.target;
-  mean.coefficients = Eigen::VectorXd::Zero(code_length());
-  for (std::size_t i = 0; i < stored.size(); ++i) {
-    MotionCode code = stored[i].code;
-    if (code.coefficients.size() != code_length()) {
-      fail("motion ", stored[i].id, " of the corpus has ", code.coefficients.size(), " coefficients; this version needs ",
-           code_length());
-    }
-    set_path(code, carried(path_of(code), code.target - code.home, query.target - query.home));
-    mean.coefficients += neighbours[i].weight * code.coefficients;
-    mean.duration_s += neighbours[i].weight * code.duration_s;
-  }
-  return mean;
-}
-
-/// Both sets as one, each motion with the mean of its two weights, heaviest first.
-std::vector<Neighbour> merged(const std::vector<Neighbour>& a, const std::vector<Neighbour>& b) {
-  std::vector<Neighbour> all;
-  for (const auto* set : {&a, &b}) {
-    for (Neighbour n : *set) {
-      n.weight *= 0.5;
-      const auto found = std::find_if(all.begin(), all.end(), [&](const Neighbour& other) { return other.id == n.id; });
-      if (found == all.end()) {
-        all.push_back(n);
-      } else {
-        found->weight += n.weight;
-      }
-    }
-  }
-  std::stable_sort(all.begin(), all.end(), [](const Neighbour& x, const Neighbour& y) {
-    return x.weight != y.weight ? x.weight > y.weight : x.id < y.id;
-  });
-  return all;
+Vec3 hold_point(const Box& box, const Vec3& place) {
+  return place + Vec3(0, 0, box.handle_height_m);
 }
 
 std::vector<std::string> why_outside(const std::vector<MotionSummary>& motions, const Query& query) {
@@ -111,7 +71,9 @@ std::vector<std::string> why_outside(const std::vector<MotionSummary>& motions, 
 }
 
 Events schedule(double duration_s, double rate) {
-  const auto frames = [&](double seconds) { return static_cast<std::size_t>(std::max(1L, std::lround(seconds * rate))); };
+  const auto frames = [&](double seconds) {
+    return static_cast<std::size_t>(std::max(1L, std::lround(seconds * rate)));
+  };
   Events e;
   e.lift_off = e.grasp + frames(kPause_s);
   e.placed = e.lift_off + std::max<std::size_t>(4, frames(duration_s));
@@ -122,7 +84,8 @@ Events schedule(double duration_s, double rate) {
 
 /// Scaled time of the hands: 0 until lift-off, 1 from placed on.
 double path_time(const Events& e, std::size_t frame) {
-  const double t = (static_cast<double>(frame) - static_cast<double>(e.lift_off)) / static_cast<double>(e.placed - e.lift_off);
+  const double t =
+      (static_cast<double>(frame) - static_cast<double>(e.lift_off)) / static_cast<double>(e.placed - e.lift_off);
   return std::clamp(t, 0.0, 1.0);
 }
 
@@ -130,18 +93,13 @@ double path_time(const Events& e, std::size_t frame) {
 /// it neither starts nor stops with a jerk. Constant speed between two ramps.
 double posture_time(const Events& e, std::size_t frame) {
   const double whole = static_cast<double>(e.release - e.grasp);
-  const double ramp = static_cast<double>(e.lift_off - e.grasp) + kAnticipation * static_cast<double>(e.placed - e.lift_off);
+  const double ramp =
+      static_cast<double>(e.lift_off - e.grasp) + kAnticipation * static_cast<double>(e.placed - e.lift_off);
   const double speed = 1.0 / (whole - ramp);
   const double t = std::clamp(static_cast<double>(frame) - static_cast<double>(e.grasp), 0.0, whole);
   if (t < ramp) return 0.5 * speed * t * t / ramp;
   if (t > whole - ramp) return 1.0 - 0.5 * speed * (whole - t) * (whole - t) / ramp;
   return speed * (t - 0.5 * ramp);
-}
-
-/// The posture passes from what the neighbours of the home do to what those of the target do.
-Eigen::VectorXd coordinates_between(const MotionCode& from, const MotionCode& to, double t) {
-  const double share = t * t * (3.0 - 2.0 * t);
-  return (1.0 - share) * coordinates_at(from, t) + share * coordinates_at(to, t);
 }
 
 BoxPose box_at(const Task& task, const EndpointPath& path, double t) {
@@ -171,9 +129,9 @@ std::string readable(Joint joint) {
 
 [[noreturn]] void fail_out_of_reach(const HoldReport& report, const Events& e, std::size_t frame, const BoxPose& pose) {
   const std::string place = frame <= e.lift_off ? "home" : frame >= e.placed ? "target" : "path of the box";
-  fail("the ", place, " at (", std::setprecision(3), pose.position.x, ", ", pose.position.y, ", ", pose.position.z,
-       ") m from the feet is ", std::fixed, std::setprecision(1), 100.0 * report.shortfall_m, " cm out of reach from the ",
-       readable(report.shortfall_from));
+  fail("the ", place, " at (", std::setprecision(3), pose.position.x + 0.0, ", ", pose.position.y + 0.0, ", ",
+       pose.position.z, ") m from the feet is ", std::fixed, std::setprecision(1), 100.0 * report.shortfall_m,
+       " cm out of reach from the ", readable(report.shortfall_from));
 }
 
 }  // namespace
@@ -182,33 +140,34 @@ Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task
                         const PredictOptions& options) {
   check(task);
   check(subject, options);
-  const Query query{Phase::transfer, hold_point(task.object, task.home), hold_point(task.object, task.target), subject.stature_m};
+  const Query query{Phase::transfer, hold_point(task.object, task.home), hold_point(task.object, task.target),
+                    subject.stature_m};
   if (glm::distance(query.home, query.target) < 0.01) {
-    fail("home and target are ", glm::distance(query.home, query.target), " m apart; they must be at least 0.01 m apart");
+    fail("home and target are ", glm::distance(query.home, query.target),
+         " m apart; they must be at least 0.01 m apart");
   }
   const std::vector<MotionSummary> summaries = corpus.summaries();
   if (summaries.empty()) fail("the corpus ", corpus.path().string(), " holds no motions; import some first");
   Motion motion;
   motion.outside_data = why_outside(summaries, query);
-  const std::vector<Neighbour> at_home = nearest_motions(summaries, query, End::home, options.neighbours);
-  const std::vector<Neighbour> at_target = nearest_motions(summaries, query, End::target, options.neighbours);
-  motion.neighbours = merged(at_home, at_target);
-  const MotionCode from = mean_code(corpus, at_home, query), to = mean_code(corpus, at_target, query);
-  const MotionCode code = mean_code(corpus, motion.neighbours, query);
-
-  motion.duration_s = options.duration_s.value_or(code.duration_s);
+  const Blend blend = blend_neighbours(summaries, query, options.neighbours,
+                                       [&](std::int64_t id) { return corpus.load(std::span(&id, 1)).front().code; });
+  motion.neighbours = blend.neighbours;
+  motion.duration_s = options.duration_s.value_or(blend.whole.duration_s);
   motion.events = schedule(motion.duration_s, options.frame_rate);
   double raised_m = 0.0;
-  motion.box = box_path(task, path_of(code), motion.events, raised_m);
-  if (raised_m > 1e-3) motion.corrections.push_back({"edge", raised_m, 0.0, motion.events.placed - motion.events.lift_off - 1});
+  motion.box = box_path(task, path_of(blend.whole), motion.events, raised_m);
+  if (raised_m > 1e-3)
+    motion.corrections.push_back({"edge", raised_m, 0.0, motion.events.placed - motion.events.lift_off - 1});
   const BodyLinkage linkage(two_handed_linkage(), body);
-  const Holder holder(two_handed_linkage(), body, subject.mass_kg.value_or(kUsualBodyMassIndex * subject.stature_m * subject.stature_m));
+  const Holder holder(two_handed_linkage(), body,
+                      subject.mass_kg.value_or(kUsualBodyMassIndex * subject.stature_m * subject.stature_m));
   Correction trunk{"trunk", 0.0, 0.0, 0};
   std::optional<std::pair<std::size_t, HoldReport>> worst;
   for (std::size_t frame = 0; frame <= motion.events.end; ++frame) {
     const BoxPose& pose = motion.box[frame];
     const Anchors anchors = anchors_for(body, task, pose);
-    const Decoded decoded = linkage.decode(coordinates_between(from, to, posture_time(motion.events, frame)), anchors);
+    const Decoded decoded = linkage.decode(coordinates_at(blend, posture_time(motion.events, frame)), anchors);
     HoldReport report;
     const Load load{pose.position + Vec3(0, 0, 0.5 * task.object.height_m), task.object.mass_kg};
     motion.postures.push_back(holder.hold(decoded, anchors, load, report));

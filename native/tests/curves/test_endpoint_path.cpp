@@ -19,7 +19,9 @@ Points reach_along(const Vec3& start, const Vec3& axis, const Vec3& bulge, int f
   return points;
 }
 
-Vec3 orthogonal(const Vec3& v, const Vec3& axis) { return v - glm::dot(v, axis) / glm::dot(axis, axis) * axis; }
+Vec3 orthogonal(const Vec3& v, const Vec3& axis) {
+  return v - glm::dot(v, axis) / glm::dot(axis, axis) * axis;
+}
 
 double worst_along(const EndpointPath& path, const Points& points, const Vec3& start, const Vec3& end) {
   double worst = 0.0;
@@ -31,7 +33,8 @@ double worst_along(const EndpointPath& path, const Points& points, const Vec3& s
 }
 
 TEST(EndpointPath, DecodeFollowsTheRecordedPathForEveryAxisAlsoVertical) {
-  for (const Vec3& axis : {Vec3(0.3, 0.5, 0.2), Vec3(0, 0, 1.1), Vec3(0, 0, -0.6), Vec3(0, -0.5, 0), Vec3(1e-9, 0, 0.9)}) {
+  for (const Vec3& axis :
+       {Vec3(0.3, 0.5, 0.2), Vec3(0, 0, 1.1), Vec3(0, 0, -0.6), Vec3(0, -0.5, 0), Vec3(1e-9, 0, 0.9)}) {
     const Vec3 start(0.1, 0.4, 0.2), bulge = orthogonal(Vec3(0.02, -0.12, 0.05), axis);
     const Points points = reach_along(start, axis, bulge, 31);
     const EndpointPath path = fit_endpoint_path(points);

@@ -15,7 +15,9 @@ namespace {
 constexpr double kTolerance_m = 1e-9;  // the accuracy that chain.hpp promises for chains that are not on the edge
 
 using Random = std::mt19937_64;
-double uniform(Random& random, double lo, double hi) { return std::uniform_real_distribution<>(lo, hi)(random); }
+double uniform(Random& random, double lo, double hi) {
+  return std::uniform_real_distribution<>(lo, hi)(random);
+}
 Vec3 direction(Random& random) {
   std::normal_distribution<> normal;
   return glm::normalize(Vec3(normal(random), normal(random), normal(random)));
@@ -147,7 +149,8 @@ TEST(Chain, HingeLimitsHoldByConstruction) {
     for (double& x : coordinates) x = uniform(random, -6, 6);
     Points p(5);
     arm.decode(Vec3(0.0), direction(random) * uniform(random, arm.reach().lo, arm.reach().hi), coordinates, p);
-    const double bend = std::acos(std::clamp(glm::dot(glm::normalize(p[2] - p[1]), glm::normalize(p[3] - p[2])), -1.0, 1.0));
+    const double bend =
+        std::acos(std::clamp(glm::dot(glm::normalize(p[2] - p[1]), glm::normalize(p[3] - p[2])), -1.0, 1.0));
     ASSERT_GT(bend, elbow.min_rad - 1e-6);
     ASSERT_LT(bend, elbow.max_rad + 1e-6);
   }
@@ -185,7 +188,8 @@ TEST(StretchDomain, RangesMatchAnExhaustiveSearch) {
   Random random(7);
   for (int trial = 0; trial < 300; ++trial) {
     const double p_hi = uniform(random, .1, 1), d_hi = uniform(random, .1, 1);
-    const Interval p{trial % 3 ? uniform(random, 0, p_hi) : 0.0, p_hi}, d{trial % 2 ? uniform(random, 0, d_hi) : 0.0, d_hi};
+    const Interval p{trial % 3 ? uniform(random, 0, p_hi) : 0.0, p_hi},
+        d{trial % 2 ? uniform(random, 0, d_hi) : 0.0, d_hi};
     const double c = uniform(random, std::max({0.0, p.lo - d.hi, d.lo - p.hi}), p.hi + d.hi);
     double s_min = 9, s_max = -9;
     const int n = 300;

@@ -15,13 +15,30 @@ using Random = std::mt19937_64;
 constexpr double kTolerance_m = 1e-9;
 
 /// Links, and the sides of the rigid triangles.
-const std::vector<std::pair<Joint, Joint>> kRigid{
-    {left_ball, left_ankle}, {left_ankle, left_knee}, {left_knee, left_hip}, {right_ball, right_ankle},
-    {right_ankle, right_knee}, {right_knee, right_hip}, {left_hip, right_hip}, {left_hip, l5s1}, {right_hip, l5s1},
-    {l5s1, c7t1}, {l5s1, left_clavicle}, {l5s1, right_clavicle}, {c7t1, left_clavicle}, {left_clavicle, right_clavicle},
-    {left_clavicle, left_shoulder}, {right_clavicle, right_shoulder}, {left_shoulder, left_elbow},
-    {right_shoulder, right_elbow}, {left_elbow, left_wrist}, {right_elbow, right_wrist}, {left_wrist, left_grip},
-    {right_wrist, right_grip}, {c7t1, tragion}, {tragion, nasion}};
+const std::vector<std::pair<Joint, Joint>> kRigid{{left_ball, left_ankle},
+                                                  {left_ankle, left_knee},
+                                                  {left_knee, left_hip},
+                                                  {right_ball, right_ankle},
+                                                  {right_ankle, right_knee},
+                                                  {right_knee, right_hip},
+                                                  {left_hip, right_hip},
+                                                  {left_hip, l5s1},
+                                                  {right_hip, l5s1},
+                                                  {l5s1, c7t1},
+                                                  {l5s1, left_clavicle},
+                                                  {l5s1, right_clavicle},
+                                                  {c7t1, left_clavicle},
+                                                  {left_clavicle, right_clavicle},
+                                                  {left_clavicle, left_shoulder},
+                                                  {right_clavicle, right_shoulder},
+                                                  {left_shoulder, left_elbow},
+                                                  {right_shoulder, right_elbow},
+                                                  {left_elbow, left_wrist},
+                                                  {right_elbow, right_wrist},
+                                                  {left_wrist, left_grip},
+                                                  {right_wrist, right_grip},
+                                                  {c7t1, tragion},
+                                                  {tragion, nasion}};
 
 double worst_length(const Body& body, const Posture& p) {
   double worst = 0.0;
@@ -37,9 +54,12 @@ Posture bent_posture(const Body& body) {
   for (const bool left : {true, false}) {
     const double side = left ? -1.0 : 1.0;
     const auto at = [&](Joint right) -> Vec3& { return p[index(left ? mirrored(right) : right)]; };
-    at(right_elbow) = at(right_shoulder) + glm::normalize(Vec3(0.3 * side, 0.1, -1)) * body.distance(right_shoulder, right_elbow);
-    at(right_wrist) = at(right_elbow) + glm::normalize(Vec3(-0.2 * side, 1, 0.1)) * body.distance(right_elbow, right_wrist);
-    at(right_grip) = at(right_wrist) + glm::normalize(Vec3(-0.1 * side, 1, 0.4)) * body.distance(right_wrist, right_grip);
+    at(right_elbow) =
+        at(right_shoulder) + glm::normalize(Vec3(0.3 * side, 0.1, -1)) * body.distance(right_shoulder, right_elbow);
+    at(right_wrist) =
+        at(right_elbow) + glm::normalize(Vec3(-0.2 * side, 1, 0.1)) * body.distance(right_elbow, right_wrist);
+    at(right_grip) =
+        at(right_wrist) + glm::normalize(Vec3(-0.1 * side, 1, 0.4)) * body.distance(right_wrist, right_grip);
     const Vec3 along = glm::normalize(at(right_grip) - at(right_wrist));
     at(right_hand_front) = at(right_grip) + 0.02 * along;
     at(right_hand_back) = at(right_grip) - 0.02 * along;
@@ -55,7 +75,8 @@ TEST(WholeBody, DecodeInvertsEncodeOnTheSameBody) {
   const BodyLinkage linkage(two_handed_linkage(), same);
   HoldReport report;
   const Posture back = Holder(two_handed_linkage(), same, 70.0)
-                           .hold(linkage.decode(encode_posture(two_handed_linkage(), posture), anchors_of(posture)), anchors_of(posture), {}, report);
+                           .hold(linkage.decode(encode_posture(two_handed_linkage(), posture), anchors_of(posture)),
+                                 anchors_of(posture), {}, report);
   // Stretches within 0.7 % of straight are clamped, which the standing legs are: joints may differ, the ends may not.
   for (const Joint end : {left_ball, right_ball, left_grip, right_grip}) {
     EXPECT_LT(glm::distance(back[index(end)], posture[index(end)]), kTolerance_m) << joint_name(end);
@@ -112,7 +133,8 @@ TEST(Hold, BringsBothHandsAndTheWeightToWhereTheyBelong) {
   anchors.grip = {Vec3(-0.2, 0.55, 1.2), Vec3(0.2, 0.55, 1.2)};
   const Load load{Vec3(0, 0.55, 1.2), 20.0};
   HoldReport report;
-  const Posture posture = Holder(two_handed_linkage(), body, 70.0).hold(BodyLinkage(two_handed_linkage(), body).decode(x, anchors), anchors, load, report);
+  const Posture posture = Holder(two_handed_linkage(), body, 70.0)
+                              .hold(BodyLinkage(two_handed_linkage(), body).decode(x, anchors), anchors, load, report);
   EXPECT_EQ(report.shortfall_m, 0.0);
   EXPECT_LT(glm::length(beyond_support(centre_of_mass(posture, 70.0, load), anchors)), 1e-3);
   EXPECT_LT(glm::distance(posture[index(left_grip)], anchors.grip[0]), kTolerance_m);
@@ -124,7 +146,8 @@ TEST(Hold, SaysByHowMuchAnAnchorIsOutOfReach) {
   Anchors anchors = anchors_of(body.posture());
   for (Vec3& grip : anchors.grip) grip += Vec3(0, 0, 3.0);
   HoldReport report;
-  (void)Holder(two_handed_linkage(), body, 70.0).hold(BodyLinkage(two_handed_linkage(), body).decode(x, anchors), anchors, {}, report);
+  (void)Holder(two_handed_linkage(), body, 70.0)
+      .hold(BodyLinkage(two_handed_linkage(), body).decode(x, anchors), anchors, {}, report);
   EXPECT_GT(report.shortfall_m, 0.2);
 }
 

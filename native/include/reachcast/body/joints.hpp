@@ -12,17 +12,40 @@
 namespace reachcast {
 
 enum class Joint : std::size_t {
-  left_ball, left_ankle, left_knee, left_hip,
-  left_shoulder, left_elbow, left_wrist, left_hand_front, left_hand_back,
-  right_ball, right_ankle, right_knee, right_hip,
-  right_shoulder, right_elbow, right_wrist, right_hand_front, right_hand_back,
-  l5s1, c7t1, suprasternale, tragion, nasion,
-  left_grip, right_grip, left_clavicle, right_clavicle,
+  left_ball,
+  left_ankle,
+  left_knee,
+  left_hip,
+  left_shoulder,
+  left_elbow,
+  left_wrist,
+  left_hand_front,
+  left_hand_back,
+  right_ball,
+  right_ankle,
+  right_knee,
+  right_hip,
+  right_shoulder,
+  right_elbow,
+  right_wrist,
+  right_hand_front,
+  right_hand_back,
+  l5s1,
+  c7t1,
+  suprasternale,
+  tragion,
+  nasion,
+  left_grip,
+  right_grip,
+  left_clavicle,
+  right_clavicle,
 };
 inline constexpr std::size_t kJointCount = 27;
 inline constexpr std::size_t kRecordedJointCount = 23;  ///< the first 23 are those of the 2004 paper
 
-[[nodiscard]] constexpr std::size_t index(Joint joint) { return static_cast<std::size_t>(joint); }
+[[nodiscard]] constexpr std::size_t index(Joint joint) {
+  return static_cast<std::size_t>(joint);
+}
 [[nodiscard]] std::string_view joint_name(Joint joint);
 [[nodiscard]] std::optional<Joint> find_joint(std::string_view name);
 

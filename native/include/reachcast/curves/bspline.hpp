@@ -20,8 +20,8 @@ using BasisRow = Eigen::Matrix<double, 1, kBasisCount>;
 /// rows: times evenly spaced over [0, 1], count >= 2.
 [[nodiscard]] Eigen::MatrixXd bspline_matrix(Eigen::Index count);
 
-/// Least squares. values: (F, C), rows evenly spaced in time, F >= 4 -> coefficients (8, C). With F < 8 the smoothest of
-/// the fits. Throws std::invalid_argument for too few rows or values that are not finite.
+/// Least squares. values: (F, C), rows evenly spaced in time, F >= 4 -> coefficients (8, C). With F < 8 the smoothest
+/// of the fits. Throws std::invalid_argument for too few rows or values that are not finite.
 [[nodiscard]] Eigen::MatrixXd fit_bspline(const Eigen::Ref<const Eigen::MatrixXd>& values);
 
 /// min |A x - b|^2 with a vanishing pull towards equal neighbours that settles what the data leave open.

@@ -15,7 +15,8 @@
 
 namespace reachcast {
 
-inline constexpr Eigen::Index kPathBasisCount = 6;  ///< eight without the first and the last: v and r vanish at the ends
+inline constexpr Eigen::Index kPathBasisCount =
+    6;  ///< eight without the first and the last: v and r vanish at the ends
 
 struct EndpointPath {
   Eigen::Matrix<double, kPathBasisCount, 1> velocity;   ///< v, in units of the axis length per scaled time

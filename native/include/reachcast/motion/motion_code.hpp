@@ -15,7 +15,7 @@ struct MotionCode {
   Subject subject;
   Phase phase = Phase::transfer;
   std::string origin;
-  bool is_mirrored = false;   ///< the mirror image of the reach named by `origin`
+  bool is_mirrored = false;  ///< the mirror image of the reach named by `origin`
   double duration_s = 0.0;
   Vec3 home{0.0};
   Vec3 target{0.0};

@@ -24,13 +24,12 @@ enum class Phase {
 [[nodiscard]] std::string_view phase_name(Phase phase);
 [[nodiscard]] std::optional<Phase> find_phase(std::string_view name);
 
-
 struct Reach {
   Subject subject;
   Phase phase = Phase::transfer;
-  std::string origin;                      ///< file and frames, e.g. "omomo/sub8_largebox_025.csv:22-50"
-  double duration_s = 0.0;                 ///< > 0, first to last posture
-  std::vector<Posture> postures;           ///< body frame, evenly spaced in time, at least 4
+  std::string origin;                       ///< file and frames, e.g. "omomo/sub8_largebox_025.csv:22-50"
+  double duration_s = 0.0;                  ///< > 0, first to last posture
+  std::vector<Posture> postures;            ///< body frame, evenly spaced in time, at least 4
   std::array<bool, kJointCount> derived{};  ///< joints that the recording lacked
 
   [[nodiscard]] std::size_t frames() const { return postures.size(); }

@@ -12,8 +12,8 @@ struct Load {
   double mass_kg = 0.0;  ///< >= 0
 };
 
-/// Centre of mass of person and load. Segment masses and centres: Winter, Biomechanics and Motor Control (2009), table 4.1.
-/// body_mass_kg > 0.
+/// Centre of mass of person and load. Segment masses and centres: Winter, Biomechanics and Motor Control (2009),
+/// table 4.1. body_mass_kg > 0.
 [[nodiscard]] Vec3 centre_of_mass(const Posture& posture, double body_mass_kg, const Load& load);
 
 /// How far, horizontally, the centre of mass lies outside the area that two flat feet carry: between the ankles

@@ -2,11 +2,11 @@
 /// Stretch-pivot coordinates of a chain of links whose two ends are given (Faraway 2004, section 2 and Appendix), with
 /// a lower reach bound for every sub-chain and joint limits as bounds on reach.
 ///
-/// A chain of n links has joints 0..n. Its ends are given; a pivot m between them splits it into a proximal and a distal
-/// sub-chain, each of which is split again. A pivot is described by how far each side is stretched (q in [0, 1] within
-/// what is possible, kept as logit q) and by the normal of the plane (start, m, end), whose length is the sine of the
-/// bend at m: nearly straight chains, whose normal is noise, weigh little in a mean. Because every q is relative to
-/// what is possible, any coordinates at all, also any weighted mean, decode to a chain with exact link lengths.
+/// A chain of n links has joints 0..n. Its ends are given; a pivot m between them splits it into a proximal and a
+/// distal sub-chain, each of which is split again. A pivot is described by how far each side is stretched (q in [0, 1]
+/// within what is possible, kept as logit q) and by the normal of the plane (start, m, end), whose length is the sine
+/// of the bend at m: nearly straight chains, whose normal is noise, weigh little in a mean. Because every q is relative
+/// to what is possible, any coordinates at all, also any weighted mean, decode to a chain with exact link lengths.
 #pragma once
 
 #include <cstddef>

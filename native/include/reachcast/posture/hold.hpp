@@ -32,14 +32,16 @@ class Holder {
 
   /// The decoded posture with balls, ankles and grips exactly at their anchors. Where report.shortfall_m > 0 the limbs
   /// stop short of them. Links keep their lengths in either case.
-  [[nodiscard]] Posture hold(const Decoded& decoded, const Anchors& anchors, const Load& load, HoldReport& report) const;
+  [[nodiscard]] Posture hold(const Decoded& decoded, const Anchors& anchors, const Load& load,
+                             HoldReport& report) const;
 
  private:
   using Corners = std::array<Vec3, kLimbCount>;  ///< roots of the limbs, or their ends
 
   void bring_within_reach(const Corners& before, Corners& roots, const Corners& ends, HoldReport& report) const;
   void measure_shortfall(Corners& roots, const Corners& ends, HoldReport& report) const;
-  [[nodiscard]] double pulled_roots(const Corners& roots, const Corners& ends, std::size_t count, Corners& wanted) const;
+  [[nodiscard]] double pulled_roots(const Corners& roots, const Corners& ends, std::size_t count,
+                                    Corners& wanted) const;
 
   std::array<LimbSpec, kLimbCount> limbs_;
   std::vector<Chain> chains_;  ///< of the limbs, on this body

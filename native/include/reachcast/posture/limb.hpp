@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Two links between given ends: the middle joint lies on a circle, and the plane says where on it (Faraway 2004, fig. 2).
+/// Two links between given ends: the middle joint lies on a circle, and the plane says where on it (Faraway 2004, fig.
+/// 2).
 #pragma once
 
 #include "reachcast/body/body.hpp"

@@ -15,9 +15,9 @@ namespace reachcast {
 /// A chain whose two ends are placed before it is decoded.
 struct ChainSpec {
   std::string_view name;
-  std::vector<Joint> joints;                            ///< first to last
-  std::vector<Joint> pivots;                            ///< order of precedence
-  std::vector<std::pair<Joint, FlexionLimit>> limits;   ///< hinges
+  std::vector<Joint> joints;                           ///< first to last
+  std::vector<Joint> pivots;                           ///< order of precedence
+  std::vector<std::pair<Joint, FlexionLimit>> limits;  ///< hinges
 };
 
 /// A rigid part of which two joints are placed by a chain; one angle about the line through them places `apex`, and
@@ -45,8 +45,8 @@ struct LimbSpec {
 };
 inline constexpr std::size_t kLimbCount = 4;
 
-/// The primary chain with the parts places the trunk. It runs from one foot to the opposite hand, so it is used twice, on
-/// the posture and on its mirror image, and the trunk is the mean of the two; otherwise a reach to the left would
+/// The primary chain with the parts places the trunk. It runs from one foot to the opposite hand, so it is used twice,
+/// on the posture and on its mirror image, and the trunk is the mean of the two; otherwise a reach to the left would
 /// differ from a reach to the right. Pointers and limbs then say where the other joints are. Coordinates are kept in
 /// the order primary chain and parts, the same of the mirror image, pointers, limbs; decoded in this order too.
 struct Linkage {
@@ -54,7 +54,6 @@ struct Linkage {
   std::vector<RigidSpec> parts;
   std::vector<PointerSpec> pointers;
   std::array<LimbSpec, kLimbCount> limbs;  ///< left leg, right leg, left arm, right arm
-
 };
 
 /// Two hands on one object, both feet on the floor. The 2004 paper's chains (p. 547-549) with three differences.

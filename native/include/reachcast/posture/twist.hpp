@@ -20,8 +20,8 @@ struct Anchors;
 /// The same anchors with the grips turned about the vertical line midway between the ankles.
 [[nodiscard]] Anchors with_grips_turned(const Anchors& anchors, double yaw_rad);
 
-/// The posture with its hands turned by `yaw_rad` about that line, the chest by four fifths of it, the pelvis by two, the
-/// feet not, and the limbs spanned again in their turned planes. Twisting back undoes it. Every link keeps its
+/// The posture with its hands turned by `yaw_rad` about that line, the chest by four fifths of it, the pelvis by two,
+/// the feet not, and the limbs spanned again in their turned planes. Twisting back undoes it. Every link keeps its
 /// length; a limb that cannot span stops short and its hand or foot goes with it.
 [[nodiscard]] Posture twisted(const Posture& posture, double yaw_rad);
 

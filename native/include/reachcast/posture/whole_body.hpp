@@ -45,7 +45,8 @@ class BodyLinkage {
   [[nodiscard]] const Body& body() const { return body_; }
 
  private:
-  [[nodiscard]] Posture trunk_of(const double* stored, const Body& body, const Chain& primary, const Anchors& anchors) const;
+  [[nodiscard]] Posture trunk_of(const double* stored, const Body& body, const Chain& primary,
+                                 const Anchors& anchors) const;
   void place_pointed(const Anchors& anchors, const double* stored, Posture& posture) const;
 
   const Linkage& linkage_;

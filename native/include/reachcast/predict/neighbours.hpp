@@ -36,6 +36,7 @@ enum class End { home, target };
 /// whole and the other end by a quarter. Where all homes are equal both sets are the paper's.
 /// Equal values share the smallest rank; equal sums go by id. Fewer than k motions: all of them.
 /// Throws std::invalid_argument when k < 1 or the phase has no motion.
-[[nodiscard]] std::vector<Neighbour> nearest_motions(std::span<const MotionSummary> motions, const Query& query, End end, int k);
+[[nodiscard]] std::vector<Neighbour> nearest_motions(std::span<const MotionSummary> motions, const Query& query,
+                                                     End end, int k);
 
 }  // namespace reachcast

@@ -13,9 +13,9 @@
 namespace reachcast {
 
 struct PredictOptions {
-  double frame_rate = 24.0;           ///< frames per second of the result, 1 to 1000
-  int neighbours = 5;                 ///< k of the mean, >= 1
-  std::optional<double> duration_s;   ///< of the transfer itself; else the neighbours' mean. 0.1 to 60
+  double frame_rate = 24.0;          ///< frames per second of the result, 1 to 1000
+  int neighbours = 5;                ///< k of the mean, >= 1
+  std::optional<double> duration_s;  ///< of the transfer itself; else the neighbours' mean. 0.1 to 60
 };
 
 /// Frame numbers of what happens to the box. From lift_off to placed it moves; from grasp to release it is held.
@@ -25,7 +25,7 @@ struct Events {
 
 /// A change made after decoding, largest over the frames.
 struct Correction {
-  std::string name;     ///< "trunk": moved as hold.hpp says; "edge": the path of the box raised as approach.hpp says
+  std::string name;  ///< "trunk": moved as hold.hpp says; "edge": the path of the box raised as approach.hpp says
   double amount_m = 0.0;
   double amount_rad = 0.0;
   std::size_t frames = 0;  ///< how many frames it touched
@@ -36,7 +36,7 @@ struct Motion {
   std::vector<BoxPose> box;       ///< body frame, one per posture
   std::vector<double> times_s;    ///< frame / frame_rate
   Events events;
-  double duration_s = 0.0;        ///< of the transfer, lift_off to placed
+  double duration_s = 0.0;  ///< of the transfer, lift_off to placed
   std::vector<Neighbour> neighbours;
   std::vector<std::string> outside_data;  ///< why the task lies outside the corpus; empty when it lies inside
   std::vector<Correction> corrections;

@@ -9,18 +9,18 @@ namespace reachcast {
 /// A box. Its origin is the centre of its base, its x axis runs from the left handle to the right one. The handles are
 /// `handle_height_m` above the base, `grip_distance_m` apart.
 struct Box {
-  double width_m = 0.36;            ///< along x, > 0
-  double depth_m = 0.28;            ///< along y, > 0
-  double height_m = 0.24;           ///< > 0
-  double handle_height_m = 0.12;    ///< 0 to height_m
-  double grip_distance_m = 0.40;    ///< between the grips; at least 0.02
-  double mass_kg = 5.0;             ///< >= 0
+  double width_m = 0.36;          ///< along x, > 0
+  double depth_m = 0.28;          ///< along y, > 0
+  double height_m = 0.24;         ///< > 0
+  double handle_height_m = 0.12;  ///< 0 to height_m
+  double grip_distance_m = 0.40;  ///< between the grips; at least 0.02
+  double mass_kg = 5.0;           ///< >= 0
 };
 
 struct Task {
-  Vec3 home{0.0};              ///< origin of the box at the start, body frame
-  Vec3 target{0.0};            ///< origin of the box at the end, body frame
-  double home_yaw_rad = 0.0;   ///< turn of the box about the vertical; 0: its x is the subject's right
+  Vec3 home{0.0};             ///< origin of the box at the start, body frame
+  Vec3 target{0.0};           ///< origin of the box at the end, body frame
+  double home_yaw_rad = 0.0;  ///< turn of the box about the vertical; 0: its x is the subject's right
   double target_yaw_rad = 0.0;
   Box object;
 };

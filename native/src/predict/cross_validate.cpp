@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reachcast/predict/cross_validate.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include "reachcast/motion/encode.hpp"
+#include "reachcast/posture/hold.hpp"
+#include "reachcast/predict/blend.hpp"
+
+namespace reachcast {
+namespace {
+
+constexpr int kTimes = 21;
+constexpr double kBodyMassIndex = 24.0;
+
+using Postures = std::vector<Posture>;
+using CoordinatesAt = std::function<Eigen::VectorXd(double)>;
+
+/// A level pair of grips at the recorded distance goes along the path; the body follows. Nothing where it cannot.
+std::optional<Postures> perform(const MotionSummary& motion, const EndpointPath& path,
+                                const CoordinatesAt& coordinates) {
+  const Body body = Body::from_stature(motion.subject.stature_m, motion.subject.sex);
+  const BodyLinkage linkage(two_handed_linkage(), body);
+  const Holder holder(two_handed_linkage(), body, kBodyMassIndex * motion.subject.stature_m * motion.subject.stature_m);
+  const Vec3 half(0.5 * motion.grip_distance_m, 0.0, 0.0);
+  Postures postures;
+  for (int i = 0; i < kTimes; ++i) {
+    const double t = static_cast<double>(i) / (kTimes - 1);
+    const Vec3 hold = point_at(path, motion.home, motion.target, t);
+    Anchors anchors = anchors_of(body.posture());
+    anchors.grip = {hold - half, hold + half};
+    HoldReport report;
+    postures.push_back(holder.hold(linkage.decode(coordinates(t), anchors), anchors, {hold, 0.0}, report));
+    if (report.shortfall_m > 0.0) return std::nullopt;
+  }
+  return postures;
+}
+
+double mean_distance(const Postures& a, const Postures& b) {
+  double sum = 0.0;
+  for (std::size_t f = 0; f < a.size(); ++f) {
+    for (std::size_t j = 0; j < kRecordedJointCount; ++j) sum += glm::distance(a[f][j], b[f][j]);
+  }
+  return sum / static_cast<double>(a.size() * kRecordedJointCount);
+}
+
+double quantile(const std::vector<double>& sorted, double q) {
+  const double at = q * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+std::vector<MotionSummary> others(const std::vector<MotionSummary>& all, const MotionSummary& left_out,
+                                  LeaveOut leave_out) {
+  std::vector<MotionSummary> rest;
+  for (const MotionSummary& m : all) {
+    const bool same = leave_out == LeaveOut::motion ? m.origin == left_out.origin : m.subject_id == left_out.subject_id;
+    if (!same) rest.push_back(m);
+  }
+  return rest;
+}
+
+}  // namespace
+
+std::vector<SchemeError> cross_validate(const Corpus& corpus, std::span<const Scheme> schemes, LeaveOut leave_out) {
+  std::vector<MotionSummary> all;
+  for (const MotionSummary& m : corpus.summaries()) {
+    if (m.phase == Phase::transfer) all.push_back(m);
+  }
+  std::map<std::int64_t, MotionCode> codes;
+  for (const StoredMotion& stored : corpus.motions()) codes.emplace(stored.id, stored.code);
+  std::vector<SchemeError> rows;
+  for (const Scheme& scheme : schemes) {
+    SchemeError row{.scheme = scheme};
+    std::vector<double> errors;
+    for (const MotionSummary& motion : all) {
+      if (motion.is_mirrored) continue;
+      const std::vector<MotionSummary> rest = others(all, motion, leave_out);
+      if (rest.empty())
+        throw std::invalid_argument("leaving out " + motion.origin + " leaves no transfer to learn from");
+      const MotionCode& own = codes.at(motion.id);
+      const Blend blend =
+          blend_neighbours(rest, {Phase::transfer, motion.home, motion.target, motion.subject.stature_m},
+                           scheme.neighbours, [&](std::int64_t id) { return codes.at(id); });
+      const auto truth = perform(motion, path_of(own), [&](double t) { return coordinates_at(own, t); });
+      const auto guess = perform(motion, path_of(blend.whole), [&](double t) { return coordinates_at(blend, t); });
+      if (truth && guess) {
+        errors.push_back(mean_distance(*truth, *guess));
+      } else {
+        ++row.out_of_reach;
+      }
+    }
+    if (errors.empty())
+      throw std::invalid_argument("the corpus holds no transfer that can be predicted from the others");
+    std::sort(errors.begin(), errors.end());
+    row.motions = errors.size();
+    row.median_m = quantile(errors, 0.5);
+    row.lower_quartile_m = quantile(errors, 0.25);
+    row.upper_quartile_m = quantile(errors, 0.75);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace reachcast
