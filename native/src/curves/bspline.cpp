@@ -30,7 +30,7 @@ void basis(double t, int degree, std::array<double, N>& out) {
       const double left = knot(i + d, degree) - knot(i, degree), right = knot(i + d + 1, degree) - knot(i + 1, degree);
       double value = 0.0;
       if (left > 0.0) value += (t - knot(i, degree)) / left * out[static_cast<std::size_t>(i)];
-      if (right > 0.0) value += (knot(i + d + 1, degree) - t) / right * out[static_cast<std::size_t>(i + 1)];
+      if (right > 0.0) value += (knot(i + d + 1, degree) - t) / right * out[static_cast<std::size_t>(i) + 1];
       out[static_cast<std::size_t>(i)] = value;
     }
   }
@@ -52,7 +52,7 @@ BasisRow bspline_integral_row(double t) {
   BasisRow row;
   double tail = 0.0;
   for (int j = static_cast<int>(kBasisCount) - 1; j >= 0; --j) {
-    tail += quartic[static_cast<std::size_t>(j + 1)];
+    tail += quartic[static_cast<std::size_t>(j) + 1];
     row(j) = (knot(j + kDegree + 1, kDegree) - knot(j, kDegree)) / (kDegree + 1) * tail;
   }
   return row;

@@ -63,7 +63,8 @@ void check_arguments(const std::vector<double>& lengths, const std::vector<std::
 
 }  // namespace
 
-Chain::Chain(std::vector<double> lengths, std::vector<std::size_t> pivots, std::map<std::size_t, FlexionLimit> limits)
+Chain::Chain(std::vector<double> lengths, std::vector<std::size_t> pivots,
+             const std::map<std::size_t, FlexionLimit>& limits)
     : lengths_(std::move(lengths)) {
   check_arguments(lengths_, pivots);
   for (const auto& [joint, limit] : limits) {

@@ -35,7 +35,8 @@ class Chain {
   /// `lengths`: n >= 1 positive link lengths, metres. `pivots`: interior joints 1..n-1 in order of precedence; interior
   /// joints not named follow in ascending order. `limits`: by interior joint, allowed where the joint's two
   /// neighbours in its sub-chain are single links (there a limit is a bound on reach). Throws std::invalid_argument.
-  Chain(std::vector<double> lengths, std::vector<std::size_t> pivots, std::map<std::size_t, FlexionLimit> limits = {});
+  Chain(std::vector<double> lengths, std::vector<std::size_t> pivots,
+        const std::map<std::size_t, FlexionLimit>& limits = {});
 
   [[nodiscard]] std::size_t links() const { return lengths_.size(); }
   [[nodiscard]] std::size_t coordinate_count() const { return coordinate_count_; }

@@ -23,7 +23,7 @@ struct Anchors {
 
 /// Coordinates of a posture of anyone, untwisted (twist.hpp) to face its hold point: link lengths are those of the
 /// posture itself. Logits are clamped to +-5, so that one recorded extreme does not rule a mean.
-[[nodiscard]] Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& posture);
+[[nodiscard]] Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded);
 
 /// A posture before its limbs are spanned between trunk and anchors, which is the work of hold.hpp.
 struct Decoded {
@@ -40,7 +40,7 @@ class BodyLinkage {
   /// The trunk as its coordinates have it between left ball and right grip, with every segment's length. Where the
   /// primary chain cannot span these two, the grip is taken at the nearest point that it can reach. Never throws for
   /// finite input.
-  [[nodiscard]] Decoded decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& anchors) const;
+  [[nodiscard]] Decoded decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted) const;
 
   [[nodiscard]] const Body& body() const { return body_; }
 
