@@ -111,7 +111,8 @@ def varied(reaches: list[Any], count: int) -> Iterator[Any]:
         rate = (len(reach) - 1) / reach.duration * random.uniform(0.8, 1.25)
         clip = rc.Clip(list(rc.JOINTS), reach.positions * stretch, rate, f"variation {number}")
         subject = rc.Subject(reach.subject.stature * size, sex=reach.subject.sex)
-        yield rc.cut_reach(clip, 0, len(reach) - 1, subject, "transfer", f"{reach.origin}, variation {number}", floor_z=0.0)
+        origin = f"{reach.origin}, variation {number}"
+        yield rc.cut_reach(clip, 0, len(reach) - 1, subject, "transfer", origin, floor_z=0.0)
 
 
 def write_large(path: str, count: int) -> None:
