@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kPause_s = 0.25;             // hands on the box before it leaves and after it stands
 constexpr double kAfter_s = 0.4;              // held pose after letting go
+constexpr double kOpening_m = 0.03;           // how far each hand leaves the box
 constexpr double kAnticipation = 0.2;         // share of the transfer over which the body gets going and comes to rest
 constexpr double kUsualBodyMassIndex = 24.0;  // kg/m^2, where the subject's mass is not known
 constexpr double kFarFromData_m = 0.25;
@@ -40,6 +41,10 @@ void check(const Subject& subject, const PredictOptions& options) {
   if (options.duration_s && !(*options.duration_s >= 0.1 && *options.duration_s <= 60.0)) {
     fail("duration is ", *options.duration_s, " s; it must lie between 0.1 and 60 s");
   }
+}
+
+double body_mass(const Subject& subject) {
+  return subject.mass_kg.value_or(kUsualBodyMassIndex * subject.stature_m * subject.stature_m);
 }
 
 Vec3 hold_point(const Box& box, const Vec3& place) {
@@ -115,9 +120,24 @@ std::vector<BoxPose> box_path(const Task& task, const EndpointPath& path, const 
   return poses;
 }
 
-Anchors anchors_for(const Body& body, const Task& task, const BoxPose& pose) {
+/// 0 before `first`, 1 after `last`, from rest to rest between.
+double eased(std::size_t first, std::size_t last, std::size_t frame) {
+  const double t = (static_cast<double>(frame) - static_cast<double>(first)) / static_cast<double>(last - first);
+  const double clamped = std::clamp(t, 0.0, 1.0);
+  return clamped * clamped * (3.0 - 2.0 * clamped);
+}
+
+/// The hands take the weight between grasp and lift-off and give it up between placed and release.
+Load load_at(const Box& box, const BoxPose& pose, const Events& e, std::size_t frame) {
+  const double share = eased(e.grasp, e.lift_off, frame) - eased(e.placed, e.release, frame);
+  return {pose.position + Vec3(0, 0, 0.5 * box.height_m), share * box.mass_kg};
+}
+
+Anchors anchors_for(const Body& body, const Box& box, const BoxPose& pose, double opening_m) {
   Anchors anchors = anchors_of(body.posture());
-  anchors.grip = {grip_of(task.object, pose, true), grip_of(task.object, pose, false)};
+  Box opened = box;
+  opened.grip_distance_m += 2.0 * opening_m;
+  anchors.grip = {grip_of(opened, pose, true), grip_of(opened, pose, false)};
   return anchors;
 }
 
@@ -132,6 +152,37 @@ std::string readable(Joint joint) {
   fail("the ", place, " at (", std::setprecision(3), pose.position.x + 0.0, ", ", pose.position.y + 0.0, ", ",
        pose.position.z, ") m from the feet is ", std::fixed, std::setprecision(1), 100.0 * report.shortfall_m,
        " cm out of reach from the ", readable(report.shortfall_from));
+}
+
+/// Fills in postures and times for the box's path and the schedule that `motion` has. Throws where a box place is out
+/// of reach.
+void perform(Motion& motion, const Blend& blend, const Box& box, const Subject& subject, const Body& body,
+             double frame_rate) {
+  const BodyLinkage linkage(two_handed_linkage(), body);
+  const Holder holder(two_handed_linkage(), body, body_mass(subject));
+  const auto posture_at = [&](std::size_t frame, double opening_m, HoldReport& report) {
+    const BoxPose& pose = motion.box[frame];
+    const Anchors anchors = anchors_for(body, box, pose, opening_m);
+    const Decoded decoded = linkage.decode(coordinates_at(blend, posture_time(motion.events, frame)), anchors);
+    return holder.hold(decoded, anchors, load_at(box, pose, motion.events, frame), report);
+  };
+  HoldReport opened;
+  (void)posture_at(motion.events.end, kOpening_m, opened);
+  const double opening_m = opened.shortfall_m > 0.0 ? 0.0 : kOpening_m;  // hands at the end of their reach stay
+  Correction trunk{"trunk", 0.0, 0.0, 0};
+  std::optional<std::pair<std::size_t, HoldReport>> worst;
+  for (std::size_t frame = 0; frame <= motion.events.end; ++frame) {
+    HoldReport report;
+    motion.postures.push_back(
+        posture_at(frame, opening_m * eased(motion.events.release, motion.events.end, frame), report));
+    if (report.shortfall_m > 0.0 && (!worst || report.shortfall_m > worst->second.shortfall_m)) worst = {frame, report};
+    trunk.amount_m = std::max(trunk.amount_m, report.trunk_shift_m);
+    trunk.amount_rad = std::max(trunk.amount_rad, report.trunk_turn_rad);
+    trunk.frames += report.trunk_shift_m > 1e-3 ? 1 : 0;
+    motion.times_s.push_back(static_cast<double>(frame) / frame_rate);
+  }
+  if (worst) fail_out_of_reach(worst->second, motion.events, worst->first, motion.box[worst->first]);
+  if (trunk.frames > 0) motion.corrections.push_back(trunk);
 }
 
 }  // namespace
@@ -159,26 +210,7 @@ Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task
   motion.box = box_path(task, path_of(blend.whole), motion.events, raised_m);
   if (raised_m > 1e-3)
     motion.corrections.push_back({"edge", raised_m, 0.0, motion.events.placed - motion.events.lift_off - 1});
-  const BodyLinkage linkage(two_handed_linkage(), body);
-  const Holder holder(two_handed_linkage(), body,
-                      subject.mass_kg.value_or(kUsualBodyMassIndex * subject.stature_m * subject.stature_m));
-  Correction trunk{"trunk", 0.0, 0.0, 0};
-  std::optional<std::pair<std::size_t, HoldReport>> worst;
-  for (std::size_t frame = 0; frame <= motion.events.end; ++frame) {
-    const BoxPose& pose = motion.box[frame];
-    const Anchors anchors = anchors_for(body, task, pose);
-    const Decoded decoded = linkage.decode(coordinates_at(blend, posture_time(motion.events, frame)), anchors);
-    HoldReport report;
-    const Load load{pose.position + Vec3(0, 0, 0.5 * task.object.height_m), task.object.mass_kg};
-    motion.postures.push_back(holder.hold(decoded, anchors, load, report));
-    if (report.shortfall_m > 0.0 && (!worst || report.shortfall_m > worst->second.shortfall_m)) worst = {frame, report};
-    trunk.amount_m = std::max(trunk.amount_m, report.trunk_shift_m);
-    trunk.amount_rad = std::max(trunk.amount_rad, report.trunk_turn_rad);
-    trunk.frames += report.trunk_shift_m > 1e-3 ? 1 : 0;
-    motion.times_s.push_back(static_cast<double>(frame) / options.frame_rate);
-  }
-  if (worst) fail_out_of_reach(worst->second, motion.events, worst->first, motion.box[worst->first]);
-  if (trunk.frames > 0) motion.corrections.push_back(trunk);
+  perform(motion, blend, task.object, subject, body, options.frame_rate);
   return motion;
 }
 

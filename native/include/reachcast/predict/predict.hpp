@@ -18,7 +18,8 @@ struct PredictOptions {
   std::optional<double> duration_s;  ///< of the transfer itself; else the neighbours' mean. 0.1 to 60
 };
 
-/// Frame numbers of what happens to the box. From lift_off to placed it moves; from grasp to release it is held.
+/// Frame numbers of what happens to the box. From lift_off to placed it moves; from grasp to release it is held; from
+/// release to end the hands open beside it.
 struct Events {
   std::size_t grasp = 0, lift_off = 0, placed = 0, release = 0, end = 0;
 };
