@@ -65,7 +65,9 @@ inline Posture holding_posture(const Body& body, const Vec3& hold, double grip_d
 }
 
 /// From 0 to 1 with no speed or acceleration at either end.
-inline double smooth_step(double t) { return t * t * t * (10.0 + t * (6.0 * t - 15.0)); }
+inline double smooth_step(double t) {
+  return t * t * t * (10.0 + t * (6.0 * t - 15.0));
+}
 
 /// The hands go smoothly from `home` to `target`, up before across; `frames` postures over `seconds`.
 inline Reach made_lift(double stature, const Vec3& home, const Vec3& target, std::size_t frames = 31,
@@ -73,7 +75,8 @@ inline Reach made_lift(double stature, const Vec3& home, const Vec3& target, std
   const Body body = Body::from_stature(stature);
   Reach reach;
   reach.subject.stature_m = stature;
-  reach.origin = "made " + std::to_string(stature) + " m to " + std::to_string(target.x) + " " + std::to_string(target.z);
+  reach.origin =
+      "made " + std::to_string(stature) + " m to " + std::to_string(target.x) + " " + std::to_string(target.z);
   reach.duration_s = seconds;
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / static_cast<double>(frames - 1);

@@ -14,10 +14,11 @@ namespace {
 
 using tests::made_lift;
 
-constexpr double kExact = 1e-12;          // the same arithmetic, in another order
-constexpr double kRounding = 1e-9;        // least squares of a few hundred numbers
-constexpr double kPathTolerance_m = 0.01; // eight splines on a lift: far below what people repeat (some 5 cm)
-constexpr double kCurveTolerance = 0.15;  // of logits up to 5: eight splines round the corner where the made lift stands up
+constexpr double kExact = 1e-12;           // the same arithmetic, in another order
+constexpr double kRounding = 1e-9;         // least squares of a few hundred numbers
+constexpr double kPathTolerance_m = 0.01;  // eight splines on a lift: far below what people repeat (some 5 cm)
+constexpr double kCurveTolerance =
+    0.15;  // of logits up to 5: eight splines round the corner where the made lift stands up
 
 const Vec3 kHome(0.02, 0.42, 0.15), kTarget(-0.15, 0.45, 1.15);
 

@@ -14,7 +14,9 @@ constexpr double kRounding = 1e-12;
 
 std::vector<MotionSummary> random_motions(std::mt19937_64& random, int count) {
   // Coarse values, so that equal distances and statures are common.
-  const auto coarse = [&](double step, int most) { return step * static_cast<double>(random() % static_cast<unsigned>(most)); };
+  const auto coarse = [&](double step, int most) {
+    return step * static_cast<double>(random() % static_cast<unsigned>(most));
+  };
   std::vector<MotionSummary> motions;
   for (int i = 0; i < count; ++i) {
     MotionSummary m;
@@ -35,8 +37,10 @@ double task_distance(const MotionSummary& m, const Query& q, End end) {
   return end == End::target ? std::hypot(target, kOtherEnd * home) : std::hypot(home, kOtherEnd * target);
 }
 
-/// Ids of the k motions with the smallest rank sums, by the definition: a rank is the number of motions that are nearer.
-std::vector<std::int64_t> nearest_by_counting(const std::vector<MotionSummary>& motions, const Query& q, End end, int k) {
+/// Ids of the k motions with the smallest rank sums, by the definition: a rank is the number of motions that are
+/// nearer.
+std::vector<std::int64_t> nearest_by_counting(const std::vector<MotionSummary>& motions, const Query& q, End end,
+                                              int k) {
   std::vector<std::pair<int, std::int64_t>> scores;
   for (const MotionSummary& m : motions) {
     if (m.phase != q.phase) continue;
@@ -59,7 +63,8 @@ TEST(Neighbours, AreThoseOfARankSumByCounting) {
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<MotionSummary> motions = random_motions(random, 2 + static_cast<int>(random() % 60));
     motions.front().phase = Phase::transfer;
-    const Query query{Phase::transfer, {0.1, 0.4, 0.4}, {0.2, 0.4, 0.9}, 1.5 + 0.025 * static_cast<double>(random() % 20)};
+    const Query query{
+        Phase::transfer, {0.1, 0.4, 0.4}, {0.2, 0.4, 0.9}, 1.5 + 0.025 * static_cast<double>(random() % 20)};
     const int k = 1 + static_cast<int>(random() % 12);
     for (const End end : {End::home, End::target}) {
       std::vector<std::int64_t> ids;
@@ -75,7 +80,8 @@ TEST(Neighbours, WeightsAreTriangular) {
   for (const int k : {1, 2, 5, 12}) {
     const auto nearest = nearest_motions(motions, {Phase::transfer, {}, {0, 0.4, 1}, 1.7}, End::target, k);
     ASSERT_EQ(nearest.size(), static_cast<std::size_t>(k));
-    for (int i = 0; i < k; ++i) EXPECT_NEAR(nearest[static_cast<std::size_t>(i)].weight, (k - i) / (0.5 * k * (k + 1)), kRounding);
+    for (int i = 0; i < k; ++i)
+      EXPECT_NEAR(nearest[static_cast<std::size_t>(i)].weight, (k - i) / (0.5 * k * (k + 1)), kRounding);
   }
 }
 
@@ -105,8 +111,10 @@ TEST(Neighbours, FewerMotionsThanAskedForAreAllTaken) {
 TEST(Neighbours, RefusesNoNeighboursAndNoMotions) {
   MotionSummary m;
   m.phase = Phase::reach;
-  EXPECT_THROW((void)nearest_motions(std::vector{m}, {Phase::reach, {}, {}, 1.7}, End::target, 0), std::invalid_argument);
-  EXPECT_THROW((void)nearest_motions(std::vector{m}, {Phase::transfer, {}, {}, 1.7}, End::target, 3), std::invalid_argument);
+  EXPECT_THROW((void)nearest_motions(std::vector{m}, {Phase::reach, {}, {}, 1.7}, End::target, 0),
+               std::invalid_argument);
+  EXPECT_THROW((void)nearest_motions(std::vector{m}, {Phase::transfer, {}, {}, 1.7}, End::target, 3),
+               std::invalid_argument);
   EXPECT_THROW((void)nearest_motions({}, {Phase::transfer, {}, {}, 1.7}, End::target, 3), std::invalid_argument);
 }
 

@@ -18,20 +18,37 @@ using enum Joint;
 using tests::made_lift;
 using tests::TemporaryFolder;
 
-constexpr double kExact_m = 1e-6;      // links and grips: the promise of the issue is a thousand times wider
-constexpr double kRetarget_m = 0.01;   // mean over joints and frames: eight splines cost 1 to 4 mm on these lifts
-constexpr double kMirror_m = 1e-6;     // the same arithmetic with left and right exchanged
-const Box kBox;                        // grips 0.40 m apart, 0.12 m above the base
+constexpr double kExact_m = 1e-6;     // links and grips: the promise of the issue is a thousand times wider
+constexpr double kRetarget_m = 0.01;  // mean over joints and frames: eight splines cost 1 to 4 mm on these lifts
+constexpr double kMirror_m = 1e-6;    // the same arithmetic with left and right exchanged
+const Box kBox;                       // grips 0.40 m apart, 0.12 m above the base
 const Vec3 kUp(0.0, 0.0, kBox.handle_height_m);
 
 /// Links, and the sides of the rigid triangles of pelvis and chest.
-const std::vector<std::pair<Joint, Joint>> kRigid{
-    {left_ball, left_ankle}, {left_ankle, left_knee}, {left_knee, left_hip}, {right_ball, right_ankle},
-    {right_ankle, right_knee}, {right_knee, right_hip}, {left_hip, right_hip}, {left_hip, l5s1}, {right_hip, l5s1},
-    {l5s1, c7t1}, {l5s1, left_clavicle}, {l5s1, right_clavicle}, {c7t1, left_clavicle}, {left_clavicle, right_clavicle},
-    {left_clavicle, left_shoulder}, {right_clavicle, right_shoulder}, {left_shoulder, left_elbow},
-    {right_shoulder, right_elbow}, {left_elbow, left_wrist}, {right_elbow, right_wrist}, {left_wrist, left_grip},
-    {right_wrist, right_grip}, {c7t1, tragion}, {tragion, nasion}};
+const std::vector<std::pair<Joint, Joint>> kRigid{{left_ball, left_ankle},
+                                                  {left_ankle, left_knee},
+                                                  {left_knee, left_hip},
+                                                  {right_ball, right_ankle},
+                                                  {right_ankle, right_knee},
+                                                  {right_knee, right_hip},
+                                                  {left_hip, right_hip},
+                                                  {left_hip, l5s1},
+                                                  {right_hip, l5s1},
+                                                  {l5s1, c7t1},
+                                                  {l5s1, left_clavicle},
+                                                  {l5s1, right_clavicle},
+                                                  {c7t1, left_clavicle},
+                                                  {left_clavicle, right_clavicle},
+                                                  {left_clavicle, left_shoulder},
+                                                  {right_clavicle, right_shoulder},
+                                                  {left_shoulder, left_elbow},
+                                                  {right_shoulder, right_elbow},
+                                                  {left_elbow, left_wrist},
+                                                  {right_elbow, right_wrist},
+                                                  {left_wrist, left_grip},
+                                                  {right_wrist, right_grip},
+                                                  {c7t1, tragion},
+                                                  {tragion, nasion}};
 
 /// A corpus of lifts made up from formulas: three statures, three homes, nine targets, with mirror images.
 class MadeCorpus {
@@ -65,9 +82,13 @@ const Corpus& made_corpus() {
   return *made;
 }
 
-Subject subject(double stature) { return {.stature_m = stature, .sex = {}, .age_years = {}, .mass_kg = {}}; }
+Subject subject(double stature) {
+  return {.stature_m = stature, .sex = {}, .age_years = {}, .mass_kg = {}};
+}
 
-Task task(const Vec3& home, const Vec3& target) { return {.home = home, .target = target, .object = kBox}; }
+Task task(const Vec3& home, const Vec3& target) {
+  return {.home = home, .target = target, .object = kBox};
+}
 
 double worst_link(const Body& body, const Motion& motion) {
   double worst = 0.0;
@@ -95,7 +116,9 @@ double worst_end(const Body& body, const Task& t, const Motion& motion) {
   return worst;
 }
 
-std::string complaint(const std::function<void()>& call) { return tests::message_of<std::invalid_argument>(call); }
+std::string complaint(const std::function<void()>& call) {
+  return tests::message_of<std::invalid_argument>(call);
+}
 
 TEST(Predict, OneMotionOnItsOwnBodyAndTaskGivesTheRecordingBack) {
   for (const double stature : {1.55, 1.72, 1.9}) {
@@ -106,8 +129,9 @@ TEST(Predict, OneMotionOnItsOwnBodyAndTaskGivesTheRecordingBack) {
       Corpus corpus = Corpus::create(folder / "one.sqlite");
       corpus.add(std::vector{encode_reach(reach)});
       const Body body = Body::from_stature(stature);
-      const Motion motion = predict_transfer(corpus, subject(stature), task(reach.hold_point(0) - kUp, reach.hold_point(frames - 1) - kUp),
-                                             body, {.frame_rate = 24.0, .neighbours = 1, .duration_s = {}});
+      const Motion motion = predict_transfer(corpus, subject(stature),
+                                             task(reach.hold_point(0) - kUp, reach.hold_point(frames - 1) - kUp), body,
+                                             {.frame_rate = 24.0, .neighbours = 1, .duration_s = {}});
       ASSERT_EQ(motion.events.placed - motion.events.lift_off + 1, frames);
       double sum = 0.0;
       for (std::size_t f = 0; f < frames; ++f) {
@@ -126,7 +150,8 @@ TEST(Predict, OneMotionOnItsOwnBodyAndTaskGivesTheRecordingBack) {
 TEST(Predict, TwoCallsAgreeInEveryBit) {
   const Task t = task({0.0, 0.42, 0.0}, {0.2, 0.4, 0.95});
   const Body body = Body::from_stature(1.68);
-  const Motion a = predict_transfer(made_corpus(), subject(1.68), t, body), b = predict_transfer(made_corpus(), subject(1.68), t, body);
+  const Motion a = predict_transfer(made_corpus(), subject(1.68), t, body),
+               b = predict_transfer(made_corpus(), subject(1.68), t, body);
   ASSERT_EQ(a.postures.size(), b.postures.size());
   for (std::size_t f = 0; f < a.postures.size(); ++f) {
     ASSERT_EQ(a.postures[f], b.postures[f]) << f;
@@ -139,7 +164,8 @@ TEST(Predict, AMirroredTaskGivesTheMirroredMotion) {
   const Body body = Body::from_stature(1.74);
   for (const double x : {0.08, 0.21, 0.33}) {
     const Task right = task({0.04, 0.42, 0.1}, {x, 0.41, 0.98}), left = task({-0.04, 0.42, 0.1}, {-x, 0.41, 0.98});
-    const Motion a = predict_transfer(made_corpus(), subject(1.74), right, body), b = predict_transfer(made_corpus(), subject(1.74), left, body);
+    const Motion a = predict_transfer(made_corpus(), subject(1.74), right, body),
+                 b = predict_transfer(made_corpus(), subject(1.74), left, body);
     ASSERT_EQ(a.postures.size(), b.postures.size());
     double worst = 0.0;
     for (std::size_t f = 0; f < a.postures.size(); ++f) {
@@ -161,13 +187,16 @@ TEST(Predict, LinksGripsAndFeetAreExactOnRandomBodiesAndTasks) {
   for (int trial = 0; trial < kTrials; ++trial) {
     const double stature = between(1.45, 2.0);
     std::map<std::string, double> lengths = Body::from_stature(stature, trial % 2 ? Sex::female : Sex::male).lengths();
-    for (const char* segment : {"shank", "thigh", "trunk", "upper_arm", "forearm"}) lengths[segment] *= between(0.93, 1.07);
+    for (const char* segment : {"shank", "thigh", "trunk", "upper_arm", "forearm"})
+      lengths[segment] *= between(0.93, 1.07);
     const Body body = Body::from_lengths(stature, lengths);
-    Task t = task({between(-0.25, 0.25), between(0.35, 0.5), between(0.0, 0.9)}, {between(-0.45, 0.45), between(0.25, 0.5), between(0.1, 1.7)});
+    Task t = task({between(-0.25, 0.25), between(0.35, 0.5), between(0.0, 0.9)},
+                  {between(-0.45, 0.45), between(0.25, 0.5), between(0.1, 1.7)});
     t.target_yaw_rad = between(-0.8, 0.8);
     t.object.mass_kg = between(0.0, 20.0);
     try {
-      const Motion motion = predict_transfer(made_corpus(), subject(stature), t, body, {.frame_rate = 6.0, .neighbours = 5, .duration_s = {}});
+      const Motion motion = predict_transfer(made_corpus(), subject(stature), t, body,
+                                             {.frame_rate = 6.0, .neighbours = 5, .duration_s = {}});
       ASSERT_LT(worst_link(body, motion), kExact_m) << trial;
       ASSERT_LT(worst_end(body, t, motion), kExact_m) << trial;
       ASSERT_LT(glm::distance(motion.box[motion.events.release].position, t.target), kExact_m) << trial;
@@ -184,7 +213,8 @@ TEST(Predict, AnyFrameRateTellsTheSameStory) {
   const Task t = task({0.0, 0.42, 0.0}, {0.1, 0.42, 1.0});
   const Body body = Body::from_stature(1.72);
   for (const double rate : {1.0, 5.0, 12.0, 23.976, 30.0, 60.0, 120.0, 240.0}) {
-    const Motion motion = predict_transfer(made_corpus(), subject(1.72), t, body, {.frame_rate = rate, .neighbours = 5, .duration_s = {}});
+    const Motion motion = predict_transfer(made_corpus(), subject(1.72), t, body,
+                                           {.frame_rate = rate, .neighbours = 5, .duration_s = {}});
     const Events& e = motion.events;
     EXPECT_TRUE(e.grasp < e.lift_off && e.lift_off < e.placed && e.placed < e.release && e.release < e.end) << rate;
     ASSERT_EQ(motion.postures.size(), e.end + 1) << rate;
@@ -200,8 +230,9 @@ TEST(Predict, AnyFrameRateTellsTheSameStory) {
 }
 
 TEST(Predict, TheDurationIsTheOneAskedFor) {
-  const Motion motion = predict_transfer(made_corpus(), subject(1.72), task({0, 0.42, 0}, {0, 0.42, 1.0}), Body::from_stature(1.72),
-                                         {.frame_rate = 50.0, .neighbours = 5, .duration_s = 2.4});
+  const Motion motion =
+      predict_transfer(made_corpus(), subject(1.72), task({0, 0.42, 0}, {0, 0.42, 1.0}), Body::from_stature(1.72),
+                       {.frame_rate = 50.0, .neighbours = 5, .duration_s = 2.4});
   EXPECT_EQ(motion.events.placed - motion.events.lift_off, 120u);
   EXPECT_EQ(motion.duration_s, 2.4);
 }
@@ -243,9 +274,12 @@ TEST(Predict, RefusesBadInputInOneSentenceThatNamesIt) {
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
   };
   for (const double bad : {kMissing, 0.0, -1.7, 3.0}) expect(said(bad, good), "stature");
-  for (const double bad : {kMissing, 0.0, 0.5, 1001.0, -24.0}) expect(said(1.72, good, {.frame_rate = bad, .neighbours = 5, .duration_s = {}}), "frame_rate");
-  for (const double bad : {kMissing, 0.0, 61.0}) expect(said(1.72, good, {.frame_rate = 24, .neighbours = 5, .duration_s = bad}), "duration");
-  for (const int bad : {0, -3}) expect(said(1.72, good, {.frame_rate = 24, .neighbours = bad, .duration_s = {}}), "k is");
+  for (const double bad : {kMissing, 0.0, 0.5, 1001.0, -24.0})
+    expect(said(1.72, good, {.frame_rate = bad, .neighbours = 5, .duration_s = {}}), "frame_rate");
+  for (const double bad : {kMissing, 0.0, 61.0})
+    expect(said(1.72, good, {.frame_rate = 24, .neighbours = 5, .duration_s = bad}), "duration");
+  for (const int bad : {0, -3})
+    expect(said(1.72, good, {.frame_rate = 24, .neighbours = bad, .duration_s = {}}), "k is");
   expect(said(1.72, task({0, kMissing, 0}, {0, 0.42, 1})), "home");
   expect(said(1.72, task({0, 0.42, 0}, {0, 0.42, 1.0 / 0.0})), "target");
   expect(said(1.72, task(good.home, good.home)), "home and target");
