@@ -32,6 +32,7 @@ AT_REST_M = 1e-5          #: of a box that nothing moves: single precision of pl
 FASTEST_RAD_S = 15.0      #: the issue's own
 FASTEST_M_S = 4.0         #: of any joint centre: hands that throw a light box peak at some 3 m/s
 MOST_TWIST_DEG = 90.0     #: a forearm's pronation from its middle
+MOST_WRIST_DEG = 100.0    #: between forearm and hand; people reach 80 to 90 in any direction
 SAME_M = 1e-4             #: of one motion at different places of the world, up to 10 m away in single precision
 DRAWN = 100               #: cases beside the corners
 SEED = 547
@@ -78,7 +79,19 @@ def by_measure(scene: LiftScene, result: PredictionResult) -> dict[str, float]:
     samples = sample(scene.rig, skeleton, range(1, result.frames["end"] + 1), scene.box)
     measures = measure_lift(samples, skeleton, dict(result.frames), fps, read_box(scene.box),
                             np.array(scene.shelf.matrix_world.translation))
-    return {**measures.as_dict(), "right_foot_m": foot_slip(samples, "right")}
+    return {**measures.as_dict(), "right_foot_m": foot_slip(samples, "right"),
+            "wrist_bend_deg": wrist_bend(samples.joints)}
+
+
+def wrist_bend(joints: np.ndarray) -> float:
+    """Degrees between forearm and hand, the worse of both sides over the frames."""
+    worst = 0.0
+    for side in ("left", "right"):
+        elbow, wrist, grip = (joints[:, INDEX[f"{side}_{name}"]] for name in ("elbow", "wrist", "grip"))
+        forearm, hand = wrist - elbow, grip - wrist
+        cosines = np.sum(forearm * hand, axis=1) / (np.linalg.norm(forearm, axis=1) * np.linalg.norm(hand, axis=1))
+        worst = max(worst, math.degrees(math.acos(float(np.clip(cosines.min(), -1.0, 1.0)))))
+    return worst
 
 
 def by_sight(scene: LiftScene, result: PredictionResult) -> dict[str, float]:
@@ -148,6 +161,9 @@ class EveryLift:
 
     def test_forearms_twist_less_than_a_quarter_turn(self) -> None:
         self.assert_limit(MOST_TWIST_DEG, "forearm_twist_deg")
+
+    def test_wrists_bend_no_further_than_a_person_s(self) -> None:
+        self.assert_limit(MOST_WRIST_DEG, "wrist_bend_deg")
 
     def test_box_rests_at_home_until_lift_off_and_on_the_shelf_once_placed(self) -> None:
         self.assert_limit(AT_REST_M, "off_home_m", "off_shelf_m")
