@@ -235,6 +235,7 @@ def quiet(log: Path) -> Iterator[None]:
     try:
         yield
     finally:
+        sys.stdout.flush()  # an operator's report is still in Python's buffer
         for stream, copy in zip((1, 2), kept):
             os.dup2(copy, stream)
             os.close(copy)

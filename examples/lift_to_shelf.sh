@@ -80,15 +80,17 @@ build_corpus() {
 main() {
   read_arguments "$@"
   check_arguments
-  mkdir -p "$OUT" 2>/dev/null && [ -w "$OUT" ] || fail "lift_to_shelf.sh: the folder '$OUT' cannot be written to"
+  if ! mkdir -p "$OUT" 2>/dev/null || [ ! -w "$OUT" ]; then
+    fail "lift_to_shelf.sh: the folder '$OUT' cannot be written to"
+  fi
   OUT=$(cd "$OUT" && pwd)
   need_packages "${RUN_PACKAGES[@]}"
   build_release reachcast_core
   [ -n "$CORPUS" ] || build_corpus
   # One argument per value with '=': a negative number is no option.
-  exec blender -b --factory-startup --python-exit-code 1 --python "$ROOT/examples/lift_to_shelf.py" -- \
+  blender -b --factory-startup --python-exit-code 1 --python "$ROOT/examples/lift_to_shelf.py" -- \
     --out="$OUT" --corpus="$(realpath "$CORPUS")" --rig="$RIG" --stature="$STATURE" \
-    --x="${SHELF[0]}" --y="${SHELF[1]}" --z="${SHELF[2]}" "${QUICK[@]}" </dev/null
+    --x="${SHELF[0]}" --y="${SHELF[1]}" --z="${SHELF[2]}" "${QUICK[@]}" </dev/null | sed -u '/^Blender /d; /^$/d'
 }
 
 main "$@"

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=bash disable=SC2034
 # Sourced by the two commands: Debian packages, then the native module. Does nothing where everything is in place.
 #
 #   need_packages NAME...   installs the Debian 12 packages that are missing, and says which

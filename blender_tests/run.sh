@@ -1,0 +1,187 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# All tests, native and in Blender. Ends in one line: N passed, N failed, N skipped. Logs stay in build/logs.
+#
+#     bash blender_tests/run.sh [PART...]      parts: native sanitized python blender window bench lift (all by default)
+#
+# Recordings are looked for in $REACHCAST_MOCAP, else in ../shared/mocap beside the project; without them tests skip.
+set -euo pipefail
+ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+source "$ROOT/examples/setup.sh"
+cd "$ROOT"
+
+LOGS=$ROOT/build/logs
+MOCAP=${REACHCAST_MOCAP:-$ROOT/../shared/mocap}
+WORK=''
+PASSED=0 FAILED=0 SKIPPED=0
+
+have_recordings() {
+  [ -d "$MOCAP/omomo" ] || [ -d "$MOCAP/lieblich_lifting" ]
+}
+
+# count PART PASSED FAILED SKIPPED
+count() {
+  PASSED=$((PASSED + $2)) FAILED=$((FAILED + $3)) SKIPPED=$((SKIPPED + $4))
+  echo "$1: $2 passed, $3 failed, $4 skipped ($((SECONDS - BEGAN)) s)"
+}
+
+# The end of a part's log, then one failure: it did not come as far as counting its own tests.
+broken() {
+  tail -n 40 "$LOGS/$1.log"
+  count "$1" 0 1 0
+}
+
+begin() {
+  BEGAN=$SECONDS
+  echo "== $1"
+}
+
+# run PART COMMAND...: the output goes to the part's log; the status is returned.
+run() {
+  local part=$1
+  shift
+  "$@" >"$LOGS/$part.log" 2>&1 </dev/null
+}
+
+# A part whose log ends in "N passed, N failed, N skipped". FAIL and ERROR blocks of the log are printed.
+count_last_line() {
+  local part=$1 status=$2 line
+  line=$(grep -E '^[0-9]+ passed, [0-9]+ failed, [0-9]+ skipped$' "$LOGS/$part.log" | tail -n 1) || true
+  if [[ ! $line =~ ^([0-9]+)\ passed,\ ([0-9]+)\ failed,\ ([0-9]+) ]]; then
+    broken "$part"
+    return
+  fi
+  local passed=${BASH_REMATCH[1]} failed=${BASH_REMATCH[2]} skipped=${BASH_REMATCH[3]}
+  if [ "$status" -ne 0 ] && [ "$failed" -eq 0 ]; then
+    tail -n 20 "$LOGS/$part.log"
+    failed=1
+  fi
+  [ "$failed" -eq 0 ] || awk '/^(FAIL|ERROR)/ {on = 1} /^(ok|skip) / {on = 0} on' "$LOGS/$part.log" | head -n 200
+  count "$part" "$passed" "$failed" "$skipped"
+}
+
+# A part whose log ends in pytest's summary.
+count_pytest() {
+  local part=$1 status=$2 summary passed failed skipped
+  summary=$(grep -E '^[^=]*[0-9]+ (passed|failed|skipped|error).* in [0-9.]+s' "$LOGS/$part.log" | tail -n 1) || true
+  passed=$(number_before passed "$summary") failed=$(number_before failed "$summary")
+  failed=$((failed + $(number_before error "$summary"))) skipped=$(number_before skipped "$summary")
+  [ "$status" -eq 0 ] || [ "$failed" -gt 0 ] || failed=1
+  [ "$failed" -eq 0 ] || tail -n 80 "$LOGS/$part.log"
+  count "$part" "$passed" "$failed" "$skipped"
+}
+
+number_before() {
+  grep -oE "[0-9]+ $1" <<<"$2" | grep -oE '[0-9]+' || echo 0
+}
+
+native_tests() {
+  local part=$1 preset=$2 status=0 totals
+  begin "$part: ctest of the preset $preset"
+  build_preset "$preset" all || { count "$part" 0 1 0; return; }
+  rm -f "$LOGS/$part.xml"
+  run "$part" ctest --preset "$preset" -j2 --output-junit "$LOGS/$part.xml" || status=$?
+  totals=$(/usr/bin/python3 - "$LOGS/$part.xml" <<'PY'
+import sys, xml.etree.ElementTree as tree
+try:
+    suite = tree.parse(sys.argv[1]).getroot()
+except (OSError, tree.ParseError):
+    sys.exit()
+total, failed, skipped = (int(suite.get(name, 0)) for name in ("tests", "failures", "skipped"))
+skipped += int(suite.get("disabled", 0))
+print(total - failed - skipped, failed, skipped)
+PY
+  )
+  if [ -z "$totals" ] || { [ "$status" -ne 0 ] && [[ $totals =~ ^[0-9]+\ 0\  ]]; }; then
+    broken "$part"
+    return
+  fi
+  [ "$status" -eq 0 ] || grep -E -A 12 '\*\*\*Failed|\[  FAILED|Failure$|ERROR: |runtime error' "$LOGS/$part.log" | head -n 200 || true
+  # shellcheck disable=SC2086
+  count "$part" $totals
+}
+
+python_tests() {
+  local status=0
+  begin "python: files that need pytest"
+  mapfile -t files < <(grep -lE '^(import|from) pytest' blender_tests/test_*.py)
+  run python /usr/bin/python3 -m pytest -q -p no:cacheprovider "${files[@]}" || status=$?
+  count_pytest python "$status"
+}
+
+blender_tests() {
+  local status=0
+  begin "blender: everything else, inside Blender"
+  run blender blender -b --factory-startup --python-exit-code 1 --python blender_tests/runner.py || status=$?
+  count_last_line blender "$status"
+}
+
+# A corpus of the recordings for the parts that take one; nothing without recordings.
+recorded_corpus() {
+  local file=$WORK/corpus.sqlite
+  have_recordings || return 0
+  [ -e "$file" ] || logged corpus /usr/bin/python3 examples/build_corpus.py --mocap "$MOCAP" --out "$file" || return 1
+  echo "$file"
+}
+
+window_test() {
+  local status=0 corpus
+  begin "window: the panel in a real window"
+  corpus=$(recorded_corpus) || { count window 0 1 0; return; }
+  run window timeout 300 xvfb-run -a -s "-screen 0 1280x800x24" blender --factory-startup --enable-event-simulate \
+    --window-geometry 0 0 1280 800 --python blender_tests/test_panel_window.py -- --out "$LOGS" \
+    ${corpus:+--corpus "$corpus"} || status=$?
+  count_last_line window "$status"
+}
+
+bench_test() {
+  begin "bench: prediction and keys against nla.bake"
+  if ! run bench blender -b --factory-startup --python-exit-code 1 --python blender_tests/bench_bake.py; then
+    broken bench
+  elif grep -q '^skipped: ' "$LOGS/bench.log"; then
+    count bench 0 0 1
+  else
+    grep 'ratio' "$LOGS/bench.log"
+    count bench 1 0 0
+  fi
+}
+
+# The main job, small: its files and numbers for both rigs, then what it does with a shelf that nobody reaches.
+lift_test() {
+  local status=0 rig
+  begin "lift: the main job for both rigs"
+  if ! have_recordings; then
+    echo "recordings are missing: $MOCAP (set REACHCAST_MOCAP)"
+    count lift 0 0 1
+    return
+  fi
+  for rig in mannequin rigify; do
+    run "lift-$rig" bash examples/lift_to_shelf.sh --quick --rig "$rig" --out "$WORK/$rig" || tail -n 20 "$LOGS/lift-$rig.log"
+  done
+  run lift-refused bash examples/lift_to_shelf.sh --quick --shelf 0 0.5 3 --out "$WORK/refused" || true
+  run lift /usr/bin/python3 blender_tests/check_lift.py "$WORK" "$LOGS/lift-refused.log" || status=$?
+  count_last_line lift "$status"
+}
+
+main() {
+  local part parts=("$@")
+  [ ${#parts[@]} -gt 0 ] || parts=(native sanitized python blender window bench lift)
+  mkdir -p "$LOGS"
+  WORK=$(mktemp -d)
+  trap 'rm -rf "$WORK"' EXIT
+  need_packages "${RUN_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
+  build_release all
+  for part in "${parts[@]}"; do
+    case $part in
+      native) native_tests native release ;;
+      sanitized) native_tests sanitized asan-ubsan ;;
+      python | blender) "${part}_tests" ;;
+      window | bench | lift) "${part}_test" ;;
+      *) fail "run.sh: unknown part '$part'" ;;
+    esac
+  done
+  echo "$PASSED passed, $FAILED failed, $SKIPPED skipped"
+  [ "$FAILED" -eq 0 ]
+}
+
+main "$@"
