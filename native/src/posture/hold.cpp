@@ -8,13 +8,14 @@
 namespace reachcast {
 namespace {
 
-constexpr double kMargin_m = 1e-4;     // limbs are brought this far inside their reach
-constexpr double kTolerance_m = 1e-6;  // when the trunk's search is done
-constexpr int kShiftRounds = 60;
-constexpr int kTurnRounds = 300;
+constexpr double kMargin_m = 1e-4;        // limbs are held this far inside their reach
+constexpr double kRoomToSmooth_m = 8e-3;  // and settled this far inside it
+constexpr double kTolerance_m = 1e-6;     // when the trunk's search is done
+constexpr int kReachRounds = 150;
+constexpr double kTurnStep = 0.25;  // share of the wanted turn taken in each round: a shift is preferred
 constexpr double kMostTurn_rad = 0.6;
 constexpr int kBalanceRounds = 12;
-constexpr double kMassThatMoves = 0.75;  // share of the weight that goes with the trunk when the hands and feet stay
+constexpr double kMassThatMoves = 0.75;  // share of the weight that goes with the trunk when hands and feet stay
 
 using Corners = std::array<Vec3, 4>;  // roots of the limbs, or their ends
 
@@ -23,6 +24,19 @@ struct RigidMotion {
   Vec3 pivot{0.0}, moved_pivot{0.0};
   [[nodiscard]] Vec3 operator()(const Vec3& p) const { return moved_pivot + rotation * (p - pivot); }
 };
+
+Vec3 rotation_vector(const Mat3& rotation) {
+  const Quat q = glm::normalize(glm::quat_cast(rotation));
+  const Vec3 axis(q.x, q.y, q.z);
+  const double sine = glm::length(axis);
+  if (sine < 1e-15) return Vec3(0.0);
+  return axis * ((q.w < 0.0 ? -2.0 : 2.0) * std::atan2(sine, std::abs(q.w)) / sine);
+}
+
+Mat3 rotation_by(const Vec3& vector) {
+  const double angle = glm::length(vector);
+  return angle < 1e-15 ? Mat3(1.0) : glm::mat3_cast(glm::angleAxis(angle, vector / angle));
+}
 
 /// The rigid motion that brings `from` nearest to `to` in the least-squares sense (Kabsch 1976).
 RigidMotion nearest_rigid_motion(const Corners& from, const Corners& to) {
@@ -38,8 +52,8 @@ RigidMotion nearest_rigid_motion(const Corners& from, const Corners& to) {
 
 /// Where a limb with this reach spans from `root` to `anchor`: the nearest such place when the limb is too short. When
 /// it is too long a shoulder goes straight away from its wrist; a hip goes up, since a squat ends in standing up.
-Vec3 brought_within(const Interval& reach, const Vec3& root, const Vec3& anchor, bool is_leg) {
-  const double margin = std::min(kMargin_m, 0.25 * (reach.hi - reach.lo));
+Vec3 brought_within(const Interval& reach, const Vec3& root, const Vec3& anchor, double margin_m, bool is_leg) {
+  const double margin = std::min(margin_m, 0.25 * (reach.hi - reach.lo));
   const double lo = reach.lo + margin, hi = reach.hi - margin;
   const Vec3 away = root - anchor;
   const double across = glm::length(away);
@@ -64,8 +78,19 @@ void shift(Corners& roots, const Corners& wanted) {
   for (Vec3& root : roots) root += sum / std::max(pulls, 1.0);
 }
 
-double angle_of(const Mat3& r) {
-  return std::acos(std::clamp(0.5 * (r[0][0] + r[1][1] + r[2][2] - 1.0), -1.0, 1.0));
+/// `roots` as the rigid image of `before` nearest to them, turned by no more than the limit.
+void limit_turn(const Corners& before, Corners& roots) {
+  RigidMotion motion = nearest_rigid_motion(before, roots);
+  const Vec3 turn = rotation_vector(motion.rotation);
+  const double angle = glm::length(turn);
+  if (angle > kMostTurn_rad) motion.rotation = rotation_by(turn * (kMostTurn_rad / angle));
+  for (std::size_t i = 0; i < kLimbCount; ++i) roots[i] = motion(before[i]);
+}
+
+/// Ankles and wrists, in the order of Linkage::limbs.
+Corners limb_ends(const Decoded& decoded, const Anchors& anchors) {
+  return {anchors.ankle[0], anchors.ankle[1], anchors.grip[0] + decoded.wrist_from_grip[0],
+          anchors.grip[1] + decoded.wrist_from_grip[1]};
 }
 
 }  // namespace
@@ -75,62 +100,85 @@ Holder::Holder(const Linkage& linkage, const Body& body, double body_mass_kg)
   for (const LimbSpec& limb : limbs_) chains_.push_back(chain_of(limb, body.posture(), true));
 }
 
-Posture Holder::hold(const Decoded& decoded, const Anchors& anchors, const Load& load, HoldReport& report) const {
-  const Corners ends{anchors.ankle[0], anchors.ankle[1], anchors.grip[0] + decoded.wrist_from_grip[0],
-                     anchors.grip[1] + decoded.wrist_from_grip[1]};
-  Posture posture = decoded.trunk;
+TrunkMotion Holder::settle(const Decoded& decoded, const Anchors& anchors, const Load& load) const {
+  const Corners ends = limb_ends(decoded, anchors);
   Corners before;
-  for (std::size_t i = 0; i < kLimbCount; ++i) before[i] = posture[index(limbs_[i].root)];
+  for (std::size_t i = 0; i < kLimbCount; ++i) before[i] = decoded.trunk[index(limbs_[i].root)];
   Corners now = before;
   for (int round = 0; round < kBalanceRounds; ++round) {
-    bring_within_reach(before, now, ends, report);
-    const RigidMotion motion = nearest_rigid_motion(before, now);
-    for (const Joint j : kTrunk) posture[index(j)] = motion(decoded.trunk[index(j)]);
-    for (std::size_t i = 0; i < kLimbCount; ++i) span_limb(limbs_[i], chains_[i], decoded.planes[i], ends[i], posture);
-    place_hands(body_, decoded.wrist_from_grip, posture);
-    for (const std::size_t side : {0u, 1u}) {  // the foot goes with its ankle
-      posture[index(side == 0 ? Joint::left_ball : Joint::right_ball)] =
-          anchors.ball[side] + posture[index(limbs_[side].end)] - ends[side];
-    }
+    bring_within_reach(before, now, ends, kRoomToSmooth_m);
+    if (round + 1 == kBalanceRounds) break;
+    const Posture posture = spanned(decoded, before, now, anchors);
     const Vec3 excess = beyond_support(centre_of_mass(posture, body_mass_kg_, load), anchors);
-    report.unbalanced_m = glm::length(excess);
-    report.trunk_shift_m = glm::distance(decoded.trunk[index(Joint::l5s1)], posture[index(Joint::l5s1)]);
-    report.trunk_turn_rad = angle_of(motion.rotation);
-    if (report.unbalanced_m < kTolerance_m || report.shortfall_m > 0.0) break;
-    if (round + 1 < kBalanceRounds) {
-      for (Vec3& root : now) root -= excess / kMassThatMoves;
-    }
+    if (glm::length(excess) < kTolerance_m) break;
+    for (Vec3& root : now) root -= excess / kMassThatMoves;
+  }
+  const RigidMotion motion = nearest_rigid_motion(before, now);
+  const Vec3 waist = decoded.trunk[index(Joint::l5s1)];
+  return {motion(waist) - waist, rotation_vector(motion.rotation)};
+}
+
+Posture Holder::hold(const Decoded& decoded, const TrunkMotion& trunk, const Anchors& anchors, const Load& load,
+                     HoldReport& report) const {
+  const Corners ends = limb_ends(decoded, anchors);
+  const Vec3 waist = decoded.trunk[index(Joint::l5s1)];
+  const RigidMotion motion{rotation_by(trunk.turn_rad), waist, waist + trunk.shift};
+  Corners before, now;
+  for (std::size_t i = 0; i < kLimbCount; ++i) {
+    before[i] = decoded.trunk[index(limbs_[i].root)];
+    now[i] = motion(before[i]);
+  }
+  bring_within_reach(before, now, ends, kMargin_m);
+  measure_shortfall(now, ends, report);
+  const Posture posture = spanned(decoded, before, now, anchors);
+  report.unbalanced_m = glm::length(beyond_support(centre_of_mass(posture, body_mass_kg_, load), anchors));
+  report.trunk_shift_m = glm::distance(waist, posture[index(Joint::l5s1)]);
+  report.trunk_turn_rad = glm::length(rotation_vector(nearest_rigid_motion(before, now).rotation));
+  return posture;
+}
+
+/// The decoded posture with its trunk moved as the roots have moved, its limbs, hands and feet where they belong.
+Posture Holder::spanned(const Decoded& decoded, const Corners& before, const Corners& roots,
+                        const Anchors& anchors) const {
+  const Corners ends = limb_ends(decoded, anchors);
+  const RigidMotion motion = nearest_rigid_motion(before, roots);
+  Posture posture = decoded.trunk;
+  for (const Joint j : kTrunk) posture[index(j)] = motion(decoded.trunk[index(j)]);
+  for (std::size_t i = 0; i < kLimbCount; ++i) span_limb(limbs_[i], chains_[i], decoded.planes[i], ends[i], posture);
+  place_hands(body_, decoded.wrist_from_grip, posture);
+  for (const std::size_t side : {0u, 1u}) {  // the foot goes with its ankle
+    const Joint ball = side == 0 ? Joint::left_ball : Joint::right_ball;
+    posture[index(ball)] = anchors.ball[side] + posture[index(limbs_[side].end)] - ends[side];
   }
   return posture;
 }
 
-/// Every root is pulled to where its limb just reaches and the trunk follows, again and again until all reach: at first
-/// without turning, then as a rigid body.
-void Holder::bring_within_reach(const Corners& before, Corners& roots, const Corners& ends, HoldReport& report) const {
-  report.shortfall_m = 0.0;
-  for (int round = 0; round < kShiftRounds + kTurnRounds; ++round) {
+/// Every root is pulled to where its limb just reaches and the trunk follows as a rigid body, again and again until all
+/// reach. The same steps are taken for every input, so that neighbouring inputs have neighbouring results.
+void Holder::bring_within_reach(const Corners& before, Corners& roots, const Corners& ends, double margin_m) const {
+  for (int round = 0; round < kReachRounds; ++round) {
     Corners wanted;
-    if (pulled_roots(roots, ends, kLimbCount, wanted) < kTolerance_m) return;
-    if (round < kShiftRounds) {
-      shift(roots, wanted);
-      continue;
-    }
-    const RigidMotion step = nearest_rigid_motion(roots, wanted);
-    Corners moved = roots;
-    for (Vec3& root : moved) root = step(root);
-    if (angle_of(nearest_rigid_motion(before, moved).rotation) > kMostTurn_rad) break;
-    roots = moved;
+    if (pulled_roots(roots, ends, kLimbCount, margin_m, wanted) < kTolerance_m) return;
+    shift(roots, wanted);
+    (void)pulled_roots(roots, ends, kLimbCount, margin_m, wanted);
+    RigidMotion step = nearest_rigid_motion(roots, wanted);
+    step.rotation = rotation_by(kTurnStep * rotation_vector(step.rotation));
+    step.moved_pivot = step.pivot;
+    for (Vec3& root : roots) root = step(root);
+    limit_turn(before, roots);
   }
-  measure_shortfall(roots, ends, report);
 }
 
 /// The feet hold; what is missing is missing at the hands.
-void Holder::measure_shortfall(Corners& roots, const Corners& ends, HoldReport& report) const {
+void Holder::measure_shortfall(Corners roots, const Corners& ends, HoldReport& report) const {
+  report.shortfall_m = 0.0;
   Corners wanted;
-  if (pulled_roots(roots, ends, kLimbCount, wanted) < kMargin_m) return;
-  for (int round = 0; round < kShiftRounds && pulled_roots(roots, ends, 2, wanted) > kTolerance_m; ++round)
+  if (pulled_roots(roots, ends, kLimbCount, kMargin_m, wanted) < kMargin_m) return;
+  for (int round = 0; round < kReachRounds; ++round) {
+    if (pulled_roots(roots, ends, 2, kMargin_m, wanted) < kTolerance_m) break;
     shift(roots, wanted);
-  (void)pulled_roots(roots, ends, kLimbCount, wanted);
+  }
+  pulled_roots(roots, ends, kLimbCount, kMargin_m, wanted);
   for (std::size_t i = 0; i < kLimbCount; ++i) {
     const double gap = glm::distance(wanted[i], roots[i]);
     if (gap > report.shortfall_m) report.shortfall_m = gap, report.shortfall_from = limbs_[i].root;
@@ -138,11 +186,12 @@ void Holder::measure_shortfall(Corners& roots, const Corners& ends, HoldReport& 
 }
 
 /// Where the first `count` limbs want their roots; the others stay. Returns the longest pull.
-double Holder::pulled_roots(const Corners& roots, const Corners& ends, std::size_t count, Corners& wanted) const {
+double Holder::pulled_roots(const Corners& roots, const Corners& ends, std::size_t count, double margin_m,
+                            Corners& wanted) const {
   wanted = roots;
   double longest = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    wanted[i] = brought_within(chains_[i].reach(), roots[i], ends[i], i < 2);
+    wanted[i] = brought_within(chains_[i].reach(), roots[i], ends[i], margin_m, i < 2);
     longest = std::max(longest, glm::distance(wanted[i], roots[i]));
   }
   return longest;

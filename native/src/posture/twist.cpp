@@ -43,7 +43,7 @@ Anchors with_grips_turned(const Anchors& anchors, double yaw_rad) {
   return out;
 }
 
-Posture twisted(const Posture& posture, double yaw_rad) {
+Posture turned_trunk(const Posture& posture, double yaw_rad) {
   using enum Joint;
   const Vec3 feet = 0.5 * (posture[index(left_ankle)] + posture[index(right_ankle)]);
   Posture out = posture;
@@ -53,6 +53,13 @@ Posture twisted(const Posture& posture, double yaw_rad) {
        {c7t1, suprasternale, left_clavicle, right_clavicle, left_shoulder, right_shoulder, tragion, nasion}) {
     out[index(j)] = out[index(l5s1)] + turned(posture[index(j)] - posture[index(l5s1)], kChestShare * yaw_rad);
   }
+  return out;
+}
+
+Posture twisted(const Posture& posture, double yaw_rad) {
+  using enum Joint;
+  const Vec3 feet = 0.5 * (posture[index(left_ankle)] + posture[index(right_ankle)]);
+  Posture out = turned_trunk(posture, yaw_rad);
   for (std::size_t i = 0; i < kLimbCount; ++i) {
     const LimbSpec& limb = two_handed_linkage().limbs[i];
     const bool is_arm = i >= 2;

@@ -207,7 +207,7 @@ Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates
     decoded.wrist_from_grip[side] = turned(posture[index(wrist)] - anchors.grip[side], yaw);
     posture[index(side == 0 ? Joint::left_ankle : Joint::right_ankle)] = anchors.ankle[side];
   }
-  decoded.trunk = twisted(posture, yaw);
+  decoded.trunk = turned_trunk(posture, yaw);
   return decoded;
 }
 

@@ -12,12 +12,15 @@
 #include "reachcast/posture/linkage.hpp"
 #include "reachcast/predict/approach.hpp"
 #include "reachcast/predict/blend.hpp"
+#include "reachcast/predict/trunk_track.hpp"
 
 namespace reachcast {
 namespace {
 
 constexpr double kPause_s = 0.25;             // hands on the box before it leaves and after it stands
 constexpr double kAfter_s = 0.4;              // held pose after letting go
+constexpr double kMoment_s = 0.04;            // between the moments at which the trunk's correction is found
+constexpr double kUnbalanced_m = 0.02;        // weight this far beyond the feet is reported
 constexpr double kOpening_m = 0.03;           // how far each hand leaves the box
 constexpr double kAnticipation = 0.2;         // share of the transfer over which the body gets going and comes to rest
 constexpr double kUsualBodyMassIndex = 24.0;  // kg/m^2, where the subject's mass is not known
@@ -87,59 +90,105 @@ Events schedule(double duration_s, double rate) {
   return e;
 }
 
-/// Scaled time of the hands: 0 until lift-off, 1 from placed on.
-double path_time(const Events& e, std::size_t frame) {
-  const double t =
-      (static_cast<double>(frame) - static_cast<double>(e.lift_off)) / static_cast<double>(e.placed - e.lift_off);
-  return std::clamp(t, 0.0, 1.0);
+/// 0 before `first`, 1 after `last`, evenly between. Moments are frame numbers with fractions.
+double share_between(std::size_t first, std::size_t last, double moment) {
+  return std::clamp((moment - static_cast<double>(first)) / static_cast<double>(last - first), 0.0, 1.0);
+}
+
+/// The same from rest to rest.
+double eased(std::size_t first, std::size_t last, double moment) {
+  const double t = share_between(first, last, moment);
+  return t * t * (3.0 - 2.0 * t);
 }
 
 /// Scaled time of the posture: the body gathers way while the hands still grip and settles while they let go, so that
 /// it neither starts nor stops with a jerk. Constant speed between two ramps.
-double posture_time(const Events& e, std::size_t frame) {
+double posture_time(const Events& e, double moment) {
   const double whole = static_cast<double>(e.release - e.grasp);
   const double ramp =
       static_cast<double>(e.lift_off - e.grasp) + kAnticipation * static_cast<double>(e.placed - e.lift_off);
   const double speed = 1.0 / (whole - ramp);
-  const double t = std::clamp(static_cast<double>(frame) - static_cast<double>(e.grasp), 0.0, whole);
+  const double t = whole * share_between(e.grasp, e.release, moment);
   if (t < ramp) return 0.5 * speed * t * t / ramp;
   if (t > whole - ramp) return 1.0 - 0.5 * speed * (whole - t) * (whole - t) / ramp;
   return speed * (t - 0.5 * ramp);
 }
 
-BoxPose box_at(const Task& task, const EndpointPath& path, double t) {
-  const double whole_turn = std::remainder(task.target_yaw_rad - task.home_yaw_rad, 2.0 * kPi);
-  return {point_at(path, task.home, task.target, t), task.home_yaw_rad + progress(path, t) * whole_turn};
-}
+/// Everything that a performance needs to know of a moment, also between frames.
+class Performance {
+ public:
+  Performance(const Blend& blend, const Task& task, const Body& body, double body_mass_kg, const Events& events,
+              bool raised)
+      : blend_(blend),
+        task_(task),
+        body_(body),
+        events_(events),
+        path_(path_of(blend.whole)),
+        linkage_(two_handed_linkage(), body),
+        holder_(two_handed_linkage(), body, body_mass_kg) {
+    if (raised)
+      clearance_ = EdgeClearance([&](double t) { return point_at(path_, task.home, task.target, t); }, task.object);
+  }
 
-/// The box frame by frame; reports how far its path was raised over the edges of what it stands on.
-std::vector<BoxPose> box_path(const Task& task, const EndpointPath& path, const Events& e, double& raised_m) {
-  std::vector<BoxPose> poses;
-  for (std::size_t frame = 0; frame <= e.end; ++frame) poses.push_back(box_at(task, path, path_time(e, frame)));
-  raised_m = clear_edges(std::span(poses).subspan(e.lift_off, e.placed - e.lift_off + 1), task.object);
-  return poses;
-}
+  [[nodiscard]] double raised_m() const { return clearance_.largest_m(); }
 
-/// 0 before `first`, 1 after `last`, from rest to rest between.
-double eased(std::size_t first, std::size_t last, std::size_t frame) {
-  const double t = (static_cast<double>(frame) - static_cast<double>(first)) / static_cast<double>(last - first);
-  const double clamped = std::clamp(t, 0.0, 1.0);
-  return clamped * clamped * (3.0 - 2.0 * clamped);
-}
+  [[nodiscard]] BoxPose box(double moment) const {
+    const double t = share_between(events_.lift_off, events_.placed, moment);
+    const double whole_turn = std::remainder(task_.target_yaw_rad - task_.home_yaw_rad, 2.0 * kPi);
+    return {point_at(path_, task_.home, task_.target, t) + Vec3(0, 0, clearance_.rise_m(t)),
+            task_.home_yaw_rad + progress(path_, t) * whole_turn};
+  }
 
-/// The hands take the weight between grasp and lift-off and give it up between placed and release.
-Load load_at(const Box& box, const BoxPose& pose, const Events& e, std::size_t frame) {
-  const double share = eased(e.grasp, e.lift_off, frame) - eased(e.placed, e.release, frame);
-  return {pose.position + Vec3(0, 0, 0.5 * box.height_m), share * box.mass_kg};
-}
+  /// The correction of the trunk, found at moments that do not depend on the frame rate. The hands' opening after the
+  /// release is left out: it moves no trunk that can help it.
+  [[nodiscard]] TrunkTrack track(double frame_rate) const {
+    const double whole_s = static_cast<double>(events_.end) / frame_rate;
+    const auto count = static_cast<std::size_t>(std::clamp(std::ceil(whole_s / kMoment_s), 8.0, 2000.0)) + 1;
+    const double spacing_s = whole_s / static_cast<double>(count - 1);
+    std::vector<TrunkMotion> moments;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double moment = static_cast<double>(i) * spacing_s * frame_rate;
+      const Anchors anchors = anchors_at(moment, 0.0);
+      moments.push_back(holder_.settle(decoded_at(moment, anchors), anchors, load_at(moment)));
+    }
+    return {moments, spacing_s};
+  }
 
-Anchors anchors_for(const Body& body, const Box& box, const BoxPose& pose, double opening_m) {
-  Anchors anchors = anchors_of(body.posture());
-  Box opened = box;
-  opened.grip_distance_m += 2.0 * opening_m;
-  anchors.grip = {grip_of(opened, pose, true), grip_of(opened, pose, false)};
-  return anchors;
-}
+  [[nodiscard]] Posture posture(double moment, const TrunkMotion& trunk, double opening_m, HoldReport& report) const {
+    const Anchors anchors = anchors_at(moment, opening_m * eased(events_.release, events_.end, moment));
+    return holder_.hold(decoded_at(moment, anchors), trunk, anchors, load_at(moment), report);
+  }
+
+ private:
+  [[nodiscard]] Decoded decoded_at(double moment, const Anchors& anchors) const {
+    return linkage_.decode(coordinates_at(blend_, posture_time(events_, moment)), anchors);
+  }
+
+  [[nodiscard]] Anchors anchors_at(double moment, double opening_m) const {
+    Anchors anchors = anchors_of(body_.posture());
+    Box opened = task_.object;
+    opened.grip_distance_m += 2.0 * opening_m;
+    const BoxPose pose = box(moment);
+    anchors.grip = {grip_of(opened, pose, true), grip_of(opened, pose, false)};
+    return anchors;
+  }
+
+  /// The hands take the weight between grasp and lift-off and give it up between placed and release.
+  [[nodiscard]] Load load_at(double moment) const {
+    const double share =
+        eased(events_.grasp, events_.lift_off, moment) - eased(events_.placed, events_.release, moment);
+    return {box(moment).position + Vec3(0, 0, 0.5 * task_.object.height_m), share * task_.object.mass_kg};
+  }
+
+  const Blend& blend_;
+  const Task& task_;
+  const Body& body_;
+  const Events& events_;
+  EndpointPath path_;
+  EdgeClearance clearance_;
+  BodyLinkage linkage_;
+  Holder holder_;
+};
 
 std::string readable(Joint joint) {
   std::string name(joint_name(joint));
@@ -150,39 +199,49 @@ std::string readable(Joint joint) {
 [[noreturn]] void fail_out_of_reach(const HoldReport& report, const Events& e, std::size_t frame, const BoxPose& pose) {
   const std::string place = frame <= e.lift_off ? "home" : frame >= e.placed ? "target" : "path of the box";
   fail("the ", place, " at (", std::setprecision(3), pose.position.x + 0.0, ", ", pose.position.y + 0.0, ", ",
-       pose.position.z, ") m from the feet is ", std::fixed, std::setprecision(1), 100.0 * report.shortfall_m,
-       " cm out of reach from the ", readable(report.shortfall_from));
+       pose.position.z, ") m from the feet is ", std::fixed, std::setprecision(1),
+       std::max(0.1, 100.0 * report.shortfall_m), " cm out of reach from the ", readable(report.shortfall_from));
 }
 
-/// Fills in postures and times for the box's path and the schedule that `motion` has. Throws where a box place is out
-/// of reach.
-void perform(Motion& motion, const Blend& blend, const Box& box, const Subject& subject, const Body& body,
-             double frame_rate) {
-  const BodyLinkage linkage(two_handed_linkage(), body);
-  const Holder holder(two_handed_linkage(), body, body_mass(subject));
-  const auto posture_at = [&](std::size_t frame, double opening_m, HoldReport& report) {
-    const BoxPose& pose = motion.box[frame];
-    const Anchors anchors = anchors_for(body, box, pose, opening_m);
-    const Decoded decoded = linkage.decode(coordinates_at(blend, posture_time(motion.events, frame)), anchors);
-    return holder.hold(decoded, anchors, load_at(box, pose, motion.events, frame), report);
-  };
+/// What could not be held, and when.
+struct Failure {
+  std::size_t frame = 0;
+  HoldReport report;
+};
+
+/// Fills in box, postures, times and corrections. Returns the worst failure, if any.
+std::optional<Failure> perform(const Performance& performance, double frame_rate, Motion& motion) {
+  motion.box.clear();
+  motion.postures.clear();
+  motion.times_s.clear();
+  const TrunkTrack track = performance.track(frame_rate);
+  const auto end_s = static_cast<double>(motion.events.end) / frame_rate;
   HoldReport opened;
-  (void)posture_at(motion.events.end, kOpening_m, opened);
+  (void)performance.posture(static_cast<double>(motion.events.end), track.at(end_s), kOpening_m, opened);
   const double opening_m = opened.shortfall_m > 0.0 ? 0.0 : kOpening_m;  // hands at the end of their reach stay
-  Correction trunk{"trunk", 0.0, 0.0, 0};
-  std::optional<std::pair<std::size_t, HoldReport>> worst;
+  Correction trunk{"trunk", 0.0, 0.0, 0}, unbalanced{"unbalanced", 0.0, 0.0, 0};
+  std::optional<Failure> worst;
   for (std::size_t frame = 0; frame <= motion.events.end; ++frame) {
+    const auto moment = static_cast<double>(frame);
     HoldReport report;
-    motion.postures.push_back(
-        posture_at(frame, opening_m * eased(motion.events.release, motion.events.end, frame), report));
-    if (report.shortfall_m > 0.0 && (!worst || report.shortfall_m > worst->second.shortfall_m)) worst = {frame, report};
+    motion.times_s.push_back(moment / frame_rate);
+    motion.box.push_back(performance.box(moment));
+    motion.postures.push_back(performance.posture(moment, track.at(motion.times_s.back()), opening_m, report));
+    if (report.shortfall_m > (worst ? worst->report.shortfall_m : 0.0)) worst = Failure{frame, report};
     trunk.amount_m = std::max(trunk.amount_m, report.trunk_shift_m);
     trunk.amount_rad = std::max(trunk.amount_rad, report.trunk_turn_rad);
     trunk.frames += report.trunk_shift_m > 1e-3 ? 1 : 0;
-    motion.times_s.push_back(static_cast<double>(frame) / frame_rate);
+    unbalanced.amount_m = std::max(unbalanced.amount_m, report.unbalanced_m);
+    unbalanced.frames += report.unbalanced_m > kUnbalanced_m ? 1 : 0;
   }
-  if (worst) fail_out_of_reach(worst->second, motion.events, worst->first, motion.box[worst->first]);
+  motion.corrections.clear();
+  if (performance.raised_m() > 1e-3) {
+    motion.corrections.push_back(
+        {"edge", performance.raised_m(), 0.0, motion.events.placed - motion.events.lift_off - 1});
+  }
   if (trunk.frames > 0) motion.corrections.push_back(trunk);
+  if (unbalanced.frames > 0) motion.corrections.push_back(unbalanced);
+  return worst;
 }
 
 }  // namespace
@@ -204,13 +263,16 @@ Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task
   const Blend blend = blend_neighbours(summaries, query, options.neighbours,
                                        [&](std::int64_t id) { return corpus.load(std::span(&id, 1)).front().code; });
   motion.neighbours = blend.neighbours;
-  motion.duration_s = options.duration_s.value_or(blend.whole.duration_s);
-  motion.events = schedule(motion.duration_s, options.frame_rate);
-  double raised_m = 0.0;
-  motion.box = box_path(task, path_of(blend.whole), motion.events, raised_m);
-  if (raised_m > 1e-3)
-    motion.corrections.push_back({"edge", raised_m, 0.0, motion.events.placed - motion.events.lift_off - 1});
-  perform(motion, blend, task.object, subject, body, options.frame_rate);
+  motion.events = schedule(options.duration_s.value_or(blend.whole.duration_s), options.frame_rate);
+  motion.duration_s = static_cast<double>(motion.events.placed - motion.events.lift_off) / options.frame_rate;
+  // Raising the path over an edge is a courtesy: a path that can only be held as it was learned stays as it was.
+  std::optional<Failure> failure;
+  for (const bool raised : {true, false}) {
+    const Performance performance(blend, task, body, body_mass(subject), motion.events, raised);
+    failure = perform(performance, options.frame_rate, motion);
+    if (!failure || (failure->frame <= motion.events.lift_off) || failure->frame >= motion.events.placed) break;
+  }
+  if (failure) fail_out_of_reach(failure->report, motion.events, failure->frame, motion.box[failure->frame]);
   return motion;
 }
 

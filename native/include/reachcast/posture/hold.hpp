@@ -2,10 +2,10 @@
 /// Both hands on the object, both feet flat, the weight over them: the correction after decoding (the 2004 paper names
 /// the needs on p. 551 and leaves them open).
 ///
-/// The trunk (pelvis, chest, head) is moved as one piece: over the feet where the weight is beyond them, then to where
-/// all four limbs reach their ankles and grips, by a shift or, where no shift will do, by a shift and a turn of at
-/// most 0.6 rad; where weight and limbs disagree the limbs win. Then the limbs are spanned in their planes between
-/// trunk and anchors.
+/// The trunk (pelvis, chest, shoulders, head) is moved as one piece, by a shift and a small turn, to where all four
+/// limbs reach their ankles and wrists and the weight is over the feet; where the two disagree the limbs win. Then
+/// the limbs are spanned in their planes between trunk and anchors. To settle the trunk and to hold on are two steps,
+/// so that a motion can smooth the first over time.
 #pragma once
 
 #include <vector>
@@ -14,6 +14,12 @@
 #include "reachcast/posture/whole_body.hpp"
 
 namespace reachcast {
+
+/// How a decoded trunk is moved: turned about its l5s1, then shifted.
+struct TrunkMotion {
+  Vec3 shift{0.0};     ///< metres
+  Vec3 turn_rad{0.0};  ///< axis times angle
+};
 
 /// What was changed, and what could not be.
 struct HoldReport {
@@ -30,18 +36,30 @@ class Holder {
   /// body_mass_kg > 0.
   Holder(const Linkage& linkage, const Body& body, double body_mass_kg);
 
-  /// The decoded posture with balls, ankles and grips exactly at their anchors. Where report.shortfall_m > 0 the limbs
-  /// stop short of them. Links keep their lengths in either case.
-  [[nodiscard]] Posture hold(const Decoded& decoded, const Anchors& anchors, const Load& load,
+  /// The motion that brings this trunk to where limbs and weight want it, with 8 mm to spare in the limbs.
+  [[nodiscard]] TrunkMotion settle(const Decoded& decoded, const Anchors& anchors, const Load& load) const;
+
+  /// The posture with its trunk moved so, and balls, ankles and grips exactly at their anchors; what the motion leaves
+  /// out of reach is made up by a last move of the trunk. Where report.shortfall_m > 0 the limbs stop short of their
+  /// anchors. Links keep their lengths in either case.
+  [[nodiscard]] Posture hold(const Decoded& decoded, const TrunkMotion& trunk, const Anchors& anchors, const Load& load,
                              HoldReport& report) const;
+
+  /// Both at once, for a single posture.
+  [[nodiscard]] Posture hold(const Decoded& decoded, const Anchors& anchors, const Load& load,
+                             HoldReport& report) const {
+    return hold(decoded, settle(decoded, anchors, load), anchors, load, report);
+  }
 
  private:
   using Corners = std::array<Vec3, kLimbCount>;  ///< roots of the limbs, or their ends
 
-  void bring_within_reach(const Corners& before, Corners& roots, const Corners& ends, HoldReport& report) const;
-  void measure_shortfall(Corners& roots, const Corners& ends, HoldReport& report) const;
-  [[nodiscard]] double pulled_roots(const Corners& roots, const Corners& ends, std::size_t count,
-                                    Corners& wanted) const;
+  [[nodiscard]] Posture spanned(const Decoded& decoded, const Corners& before, const Corners& roots,
+                                const Anchors& anchors) const;
+  void bring_within_reach(const Corners& before, Corners& roots, const Corners& ends, double margin_m) const;
+  void measure_shortfall(Corners roots, const Corners& ends, HoldReport& report) const;
+  double pulled_roots(const Corners& roots, const Corners& ends, std::size_t count, double margin_m,
+                      Corners& wanted) const;
 
   std::array<LimbSpec, kLimbCount> limbs_;
   std::vector<Chain> chains_;  ///< of the limbs, on this body

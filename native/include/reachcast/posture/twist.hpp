@@ -25,4 +25,7 @@ struct Anchors;
 /// length; a limb that cannot span stops short and its hand or foot goes with it.
 [[nodiscard]] Posture twisted(const Posture& posture, double yaw_rad);
 
+/// Only its trunk: hips, l5s1, chest, shoulders and head. The feet give the line; other joints stay.
+[[nodiscard]] Posture turned_trunk(const Posture& posture, double yaw_rad);
+
 }  // namespace reachcast

@@ -2,18 +2,28 @@
 /// What stands on a surface leaves it upwards and comes to it from above.
 #pragma once
 
-#include <span>
+#include <functional>
 
 #include "reachcast/predict/task.hpp"
 
 namespace reachcast {
 
-/// Raises the path of a box so that it clears the edges of what it stands on at home and at the target: within half its
-/// depth and 15 cm of either place it stays above that place's height. Each end has one smooth bump, zero in value and
-/// slope at both ends of the path; the ends themselves do not move. Where home and target stand above each other there
-/// is no edge to clear and less of the path is touched. Returns the largest rise, metres; it is at most 0.15, which
-/// clears most edges and keeps the path that of a person.
-/// `path`: positions from home to target, evenly spaced in time.
-[[nodiscard]] double clear_edges(std::span<BoxPose> path, const Box& box);
+/// How far a path is raised at scaled time t: one smooth bump for each end, zero in value and slope at both ends of the
+/// path, together at most 0.15 m, which clears most edges and keeps the path that of a person.
+class EdgeClearance {
+ public:
+  EdgeClearance() = default;
+
+  /// The rise with which the box stays above its place while its centre is level within half its depth and 15 cm of
+  /// that place, or within 60 % of the way where the two places are close. `place_at`: the box's origin at scaled time
+  /// t; it is looked at at fixed times, so that the rise does not depend on a frame rate.
+  EdgeClearance(const std::function<Vec3(double)>& place_at, const Box& box);
+
+  [[nodiscard]] double rise_m(double t) const;
+  [[nodiscard]] double largest_m() const;
+
+ private:
+  double early_m_ = 0.0, late_m_ = 0.0;
+};
 
 }  // namespace reachcast

@@ -24,9 +24,11 @@ struct Events {
   std::size_t grasp = 0, lift_off = 0, placed = 0, release = 0, end = 0;
 };
 
-/// A change made after decoding, largest over the frames.
+/// A change made after decoding, or what no change could mend; largest over the frames.
 struct Correction {
-  std::string name;  ///< "trunk": moved as hold.hpp says; "edge": the path of the box raised as approach.hpp says
+  /// "trunk": moved as hold.hpp says; "edge": the path of the box raised as approach.hpp says; "unbalanced": the weight
+  /// lies this far beyond the feet, a person would step or fall.
+  std::string name;
   double amount_m = 0.0;
   double amount_rad = 0.0;
   std::size_t frames = 0;  ///< how many frames it touched
