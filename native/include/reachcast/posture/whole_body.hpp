@@ -42,16 +42,16 @@ class BodyLinkage {
   /// finite input.
   [[nodiscard]] Decoded decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted) const;
 
-  [[nodiscard]] const Body& body() const { return body_; }
-
  private:
   [[nodiscard]] Posture trunk_of(const double* stored, const Body& body, const Chain& primary,
                                  const Anchors& anchors) const;
+  void limit_wrist(std::size_t side, const Anchors& anchors, Decoded& decoded) const;
   void place_pointed(const Anchors& anchors, const double* stored, Posture& posture) const;
 
-  const Linkage& linkage_;
+  Linkage linkage_;
   Body body_, mirror_body_;
   Chain primary_, mirror_primary_;
+  std::array<Chain, 2> arms_;  ///< left, right
 };
 
 /// The chain with the lengths it has in `posture` (limits of the linkage apply when `limited`).
