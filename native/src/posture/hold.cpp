@@ -17,6 +17,11 @@ constexpr double kMostTurn_rad = 0.6;
 constexpr int kBalanceRounds = 12;
 constexpr double kMassThatMoves = 0.75;  // share of the weight that goes with the trunk when hands and feet stay
 
+// A wrist flexes and extends by some 70 to 80 degrees (American Academy of Orthopaedic Surgeons, 1965).
+constexpr double kFreeWrist_rad = 0.8;
+constexpr double kMostWrist_rad = 1.3;
+constexpr int kWristRounds = 4;
+
 using Corners = std::array<Vec3, 4>;  // roots of the limbs, or their ends
 
 struct RigidMotion {
@@ -87,10 +92,21 @@ void limit_turn(const Corners& before, Corners& roots) {
   for (std::size_t i = 0; i < kLimbCount; ++i) roots[i] = motion(before[i]);
 }
 
+/// `hand` as it is up to a moderate bend from `forearm`, and less and less of the rest: a bend never exceeds the limit.
+Vec3 bent_at_most(const Vec3& forearm, const Vec3& hand) {
+  const double bend = std::acos(std::clamp(glm::dot(forearm, hand), -1.0, 1.0));
+  if (bend <= kFreeWrist_rad) return hand;
+  const double room = kMostWrist_rad - kFreeWrist_rad;
+  const double allowed = kFreeWrist_rad + room * (1.0 - std::exp(-(bend - kFreeWrist_rad) / room));
+  const Vec3 axis = glm::cross(forearm, hand);
+  if (glm::length(axis) < 1e-9) return forearm;
+  return glm::angleAxis(allowed, glm::normalize(axis)) * forearm;
+}
+
 /// Ankles and wrists, in the order of Linkage::limbs.
-Corners limb_ends(const Decoded& decoded, const Anchors& anchors) {
-  return {anchors.ankle[0], anchors.ankle[1], anchors.grip[0] + decoded.wrist_from_grip[0],
-          anchors.grip[1] + decoded.wrist_from_grip[1]};
+Corners limb_ends(const std::array<Vec3, 2>& wrist_from_grip, const Anchors& anchors) {
+  return {anchors.ankle[0], anchors.ankle[1], anchors.grip[0] + wrist_from_grip[0],
+          anchors.grip[1] + wrist_from_grip[1]};
 }
 
 }  // namespace
@@ -101,14 +117,14 @@ Holder::Holder(const Linkage& linkage, const Body& body, double body_mass_kg)
 }
 
 TrunkMotion Holder::settle(const Decoded& decoded, const Anchors& anchors, const Load& load) const {
-  const Corners ends = limb_ends(decoded, anchors);
   Corners before;
   for (std::size_t i = 0; i < kLimbCount; ++i) before[i] = decoded.trunk[index(limbs_[i].root)];
   Corners now = before;
   for (int round = 0; round < kBalanceRounds; ++round) {
-    bring_within_reach(before, now, ends, kRoomToSmooth_m);
+    const Wrists wrists = limited_wrists(decoded, now, anchors);
+    bring_within_reach(before, now, limb_ends(wrists, anchors), kRoomToSmooth_m);
     if (round + 1 == kBalanceRounds) break;
-    const Posture posture = spanned(decoded, before, now, anchors);
+    const Posture posture = spanned(decoded, before, now, wrists, anchors);
     const Vec3 excess = beyond_support(centre_of_mass(posture, body_mass_kg_, load), anchors);
     if (glm::length(excess) < kTolerance_m) break;
     for (Vec3& root : now) root -= excess / kMassThatMoves;
@@ -120,7 +136,6 @@ TrunkMotion Holder::settle(const Decoded& decoded, const Anchors& anchors, const
 
 Posture Holder::hold(const Decoded& decoded, const TrunkMotion& trunk, const Anchors& anchors, const Load& load,
                      HoldReport& report) const {
-  const Corners ends = limb_ends(decoded, anchors);
   const Vec3 waist = decoded.trunk[index(Joint::l5s1)];
   const RigidMotion motion{rotation_by(trunk.turn_rad), waist, waist + trunk.shift};
   Corners before, now;
@@ -128,24 +143,48 @@ Posture Holder::hold(const Decoded& decoded, const TrunkMotion& trunk, const Anc
     before[i] = decoded.trunk[index(limbs_[i].root)];
     now[i] = motion(before[i]);
   }
+  const Wrists wrists = limited_wrists(decoded, now, anchors);
+  const Corners ends = limb_ends(wrists, anchors);
   bring_within_reach(before, now, ends, kMargin_m);
   measure_shortfall(now, ends, report);
-  const Posture posture = spanned(decoded, before, now, anchors);
+  const Posture posture = spanned(decoded, before, now, wrists, anchors);
   report.unbalanced_m = glm::length(beyond_support(centre_of_mass(posture, body_mass_kg_, load), anchors));
   report.trunk_shift_m = glm::distance(waist, posture[index(Joint::l5s1)]);
   report.trunk_turn_rad = glm::length(rotation_vector(nearest_rigid_motion(before, now).rotation));
   return posture;
 }
 
+/// A hand bends from its forearm by no more than the limit. The forearm in turn depends on where the hand puts the
+/// wrist, so this is done a few times over.
+Holder::Wrists Holder::limited_wrists(const Decoded& decoded, const Corners& roots, const Anchors& anchors) const {
+  Wrists wrists = decoded.wrist_from_grip;
+  for (const std::size_t side : {0u, 1u}) {
+    const std::size_t arm = 2 + side;
+    const LimbSpec& limb = limbs_[arm];
+    const double length = glm::length(wrists[side]);
+    const Vec3 learned = -wrists[side] / length, grip = anchors.grip[side];
+    Posture posture{};
+    posture[index(limb.root)] = roots[arm];
+    Vec3 forearm = glm::distance(grip, roots[arm]) > 1e-9 ? glm::normalize(grip - roots[arm]) : learned;
+    for (int round = 0; round < kWristRounds; ++round) {
+      wrists[side] = -length * bent_at_most(forearm, learned);
+      span_limb(limb, chains_[arm], decoded.planes[arm], grip + wrists[side], posture);
+      forearm = glm::normalize(posture[index(limb.end)] - posture[index(limb.hinge)]);
+    }
+    wrists[side] = -length * bent_at_most(forearm, learned);
+  }
+  return wrists;
+}
+
 /// The decoded posture with its trunk moved as the roots have moved, its limbs, hands and feet where they belong.
-Posture Holder::spanned(const Decoded& decoded, const Corners& before, const Corners& roots,
+Posture Holder::spanned(const Decoded& decoded, const Corners& before, const Corners& roots, const Wrists& wrists,
                         const Anchors& anchors) const {
-  const Corners ends = limb_ends(decoded, anchors);
+  const Corners ends = limb_ends(wrists, anchors);
   const RigidMotion motion = nearest_rigid_motion(before, roots);
   Posture posture = decoded.trunk;
   for (const Joint j : kTrunk) posture[index(j)] = motion(decoded.trunk[index(j)]);
   for (std::size_t i = 0; i < kLimbCount; ++i) span_limb(limbs_[i], chains_[i], decoded.planes[i], ends[i], posture);
-  place_hands(body_, decoded.wrist_from_grip, posture);
+  place_hands(body_, wrists, posture);
   for (const std::size_t side : {0u, 1u}) {  // the foot goes with its ankle
     const Joint ball = side == 0 ? Joint::left_ball : Joint::right_ball;
     posture[index(ball)] = anchors.ball[side] + posture[index(limbs_[side].end)] - ends[side];

@@ -9,10 +9,6 @@
 namespace reachcast {
 namespace {
 
-// A wrist flexes and extends by some 70 to 80 degrees (American Academy of Orthopaedic Surgeons, 1965).
-constexpr double kFreeWrist_rad = 0.8;
-constexpr double kMostWrist_rad = 1.3;
-constexpr int kWristRounds = 4;
 constexpr double kLargestLogit = 5.0;  // q within 0.7 % of its bounds
 
 std::size_t position_in(const ChainSpec& spec, Joint joint) {
@@ -107,17 +103,6 @@ void decode_part(const RigidSpec& part, const Body& body, const double* stored, 
   for (const Joint rider : part.riders) posture[index(rider)] = a + rotation * (body.at(rider) - body.at(part.a));
 }
 
-/// `hand` as it is up to a moderate bend from `forearm`, and less and less of the rest: a bend never exceeds the limit.
-Vec3 bent_at_most(const Vec3& forearm, const Vec3& hand) {
-  const double bend = std::acos(std::clamp(glm::dot(forearm, hand), -1.0, 1.0));
-  if (bend <= kFreeWrist_rad) return hand;
-  const double room = kMostWrist_rad - kFreeWrist_rad;
-  const double allowed = kFreeWrist_rad + room * (1.0 - std::exp(-(bend - kFreeWrist_rad) / room));
-  const Vec3 axis = glm::cross(forearm, hand);
-  if (glm::length(axis) < 1e-9) return forearm;
-  return glm::angleAxis(allowed, glm::normalize(axis)) * forearm;
-}
-
 /// Parts that hang together at l5s1, midway between two ways of standing.
 Posture mean_trunk(const Linkage& linkage, const Body& body, const Posture& one, const Posture& other) {
   Posture mean{};
@@ -198,8 +183,7 @@ BodyLinkage::BodyLinkage(const Linkage& linkage, const Body& body)
       body_(body),
       mirror_body_(Body::from_posture(mirrored(body.posture()), body.stature_m())),
       primary_(chain_of(linkage.primary, body.posture(), true)),
-      mirror_primary_(chain_of(linkage.primary, mirror_body_.posture(), true)),
-      arms_{chain_of(linkage.limbs[2], body.posture(), true), chain_of(linkage.limbs[3], body.posture(), true)} {}
+      mirror_primary_(chain_of(linkage.primary, mirror_body_.posture(), true)) {}
 
 Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted) const {
   const double yaw = facing_yaw(wanted);
@@ -224,26 +208,7 @@ Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates
     posture[index(side == 0 ? Joint::left_ankle : Joint::right_ankle)] = anchors.ankle[side];
   }
   decoded.trunk = turned_trunk(posture, yaw);
-  for (const std::size_t side : {0u, 1u}) limit_wrist(side, wanted, decoded);
   return decoded;
-}
-
-/// A hand that would fold back on its forearm gives way: its direction bends from the forearm's by no more than the limit.
-/// The forearm in turn depends on where the hand puts the wrist, so this is done a few times over.
-void BodyLinkage::limit_wrist(std::size_t side, const Anchors& anchors, Decoded& decoded) const {
-  const std::size_t arm = 2 + side;
-  const LimbSpec& limb = linkage_.limbs[arm];
-  const Vec3 learned = -decoded.wrist_from_grip[side];
-  const double length = glm::length(learned);
-  Posture posture = decoded.trunk;
-  const Vec3 from_shoulder = anchors.grip[side] - posture[index(limb.root)];
-  Vec3 forearm = glm::length(from_shoulder) > 1e-9 ? from_shoulder : learned;
-  for (int round = 0; round < kWristRounds; ++round) {
-    decoded.wrist_from_grip[side] = -length * bent_at_most(glm::normalize(forearm), learned / length);
-    span_limb(limb, arms_[side], decoded.planes[arm], anchors.grip[side] + decoded.wrist_from_grip[side], posture);
-    forearm = posture[index(limb.end)] - posture[index(limb.hinge)];
-  }
-  decoded.wrist_from_grip[side] = -length * bent_at_most(glm::normalize(forearm), learned / length);
 }
 
 Posture BodyLinkage::trunk_of(const double* stored, const Body& body, const Chain& primary,

@@ -4,8 +4,8 @@
 ///
 /// The trunk (pelvis, chest, shoulders, head) is moved as one piece, by a shift and a small turn, to where all four
 /// limbs reach their ankles and wrists and the weight is over the feet; where the two disagree the limbs win. Then
-/// the limbs are spanned in their planes between trunk and anchors. To settle the trunk and to hold on are two steps,
-/// so that a motion can smooth the first over time.
+/// the limbs are spanned in their planes between trunk and anchors; a hand that would fold back on its forearm gives
+/// way. To settle the trunk and to hold on are two steps, so that a motion can smooth the first over time.
 #pragma once
 
 #include <vector>
@@ -54,8 +54,11 @@ class Holder {
  private:
   using Corners = std::array<Vec3, kLimbCount>;  ///< roots of the limbs, or their ends
 
+  using Wrists = std::array<Vec3, 2>;  ///< from grip to wrist, left and right
+
+  [[nodiscard]] Wrists limited_wrists(const Decoded& decoded, const Corners& roots, const Anchors& anchors) const;
   [[nodiscard]] Posture spanned(const Decoded& decoded, const Corners& before, const Corners& roots,
-                                const Anchors& anchors) const;
+                                const Wrists& wrists, const Anchors& anchors) const;
   void bring_within_reach(const Corners& before, Corners& roots, const Corners& ends, double margin_m) const;
   void measure_shortfall(Corners roots, const Corners& ends, HoldReport& report) const;
   double pulled_roots(const Corners& roots, const Corners& ends, std::size_t count, double margin_m,

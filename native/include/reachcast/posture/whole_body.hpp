@@ -29,7 +29,7 @@ struct Anchors {
 struct Decoded {
   Posture trunk{};  ///< pelvis, chest, head and shoulders stand; the other joints do not
   std::array<LimbPlane, kLimbCount> planes;
-  std::array<Vec3, 2> wrist_from_grip{};  ///< left, right
+  std::array<Vec3, 2> wrist_from_grip{};  ///< left, right; as learned, before hold.hpp minds the wrists' limits
 };
 
 /// A linkage on one body: its chains are built once and used for every frame.
@@ -45,13 +45,11 @@ class BodyLinkage {
  private:
   [[nodiscard]] Posture trunk_of(const double* stored, const Body& body, const Chain& primary,
                                  const Anchors& anchors) const;
-  void limit_wrist(std::size_t side, const Anchors& anchors, Decoded& decoded) const;
   void place_pointed(const Anchors& anchors, const double* stored, Posture& posture) const;
 
   Linkage linkage_;
   Body body_, mirror_body_;
   Chain primary_, mirror_primary_;
-  std::array<Chain, 2> arms_;  ///< left, right
 };
 
 /// The chain with the lengths it has in `posture` (limits of the linkage apply when `limited`).
