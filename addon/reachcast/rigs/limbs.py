@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .rotations import Array, aim, axis_rotation, dot, frame, normalise, reject, signed_angle, turn
+from .rotations import Array, aim, axis_rotation, cross, dot, frame, normalise, reject, signed_angle, turn
 
 FULL_BEND = 0.2          #: sine of the bend from which a limb's own plane alone decides (11.5 degrees)
 MAX_HAND_TWIST = 2.6     #: radians of pronation from the forearm's neutral; half goes to the forearm, half to the hand
@@ -60,7 +60,7 @@ def hinge_turns(rest: Array, posed: Array, rest_normal: Array, fallback_turn: Ar
     upper, lower = normalise(posed[:, 1] - posed[:, 0]), normalise(posed[:, 2] - posed[:, 1])
     followed = turn(fallback_turn, rest_upper)
     fallback = turn(aim(followed, upper), turn(fallback_turn, rest_normal))
-    normal = carried_normal(np.cross(upper, lower), upper, fallback)
+    normal = carried_normal(cross(upper, lower), upper, fallback)
     upper_turn = frame(upper, normal) @ frame(rest_upper, rest_normal).T
     # the lower link's normal: the hinge's own, brought across it where the limb is too straight to be its plane
     lower_turn = frame(lower, normal) @ frame(rest_lower, rest_normal).T
@@ -93,11 +93,11 @@ def foot_turns(rest_foot: Array, foot: Array, axes: Array, shin_turn: Array) -> 
     rest_foot (3,), foot (F, 3): unit; axes (3, 3): rows of the body frame; shin_turn (F, 3, 3).
     """
     up = axes[2]
-    level = np.cross(rest_foot, up)
+    level = cross(rest_foot, up)
     rest_side = normalise(level) if np.linalg.norm(level) > FULL_BEND else axes[0]
     followed = turn(shin_turn, rest_foot)
     carried = turn(aim(followed, foot), turn(shin_turn, rest_side))
-    side = _foot_side(np.cross(foot, up), carried, foot)
+    side = _foot_side(cross(foot, up), carried, foot)
     foot_turn = frame(foot, side) @ frame(rest_foot, rest_side).T
     heading = normalise(side - dot(side, up)[:, None] * up)
     toe_turn = frame(np.broadcast_to(up, heading.shape), heading) @ frame(up, rest_side).T

@@ -13,7 +13,7 @@ import numpy as np
 
 from .joints import INDEX, JOINTS, SIDES
 from .limbs import LEAST_REST_BEND_DEG, foot_turns, hand_turns, hinge_turns
-from .rotations import Array, aim, frame, normalise, transpose, turn
+from .rotations import Array, aim, cross, frame, normalise, transpose, turn
 from .skeleton import Skeleton, rest_bend, rest_hinge, rest_palm
 
 Turns = dict[str, Array]
@@ -95,7 +95,7 @@ def _arm(skeleton: Skeleton, posed: Callable[[str], Array], side: str, word: str
 def _leg(skeleton: Skeleton, posed: Callable[[str], Array], side: str, word: str, pelvis: Array) -> Turns:
     rest = skeleton.joint
     hip, knee, ankle, ball = (f"{word}_{name}" for name in ("hip", "knee", "ankle", "ball"))
-    straight = np.cross(normalise(rest(knee) - rest(hip)), -skeleton.axes[1])
+    straight = cross(normalise(rest(knee) - rest(hip)), -skeleton.axes[1])
     hinge = rest_bend(skeleton.joints, side, ("hip", "knee", "ankle"), straight, LEAST_REST_BEND_DEG)
     thigh, shin, _ = hinge_turns(np.stack([rest(hip), rest(knee), rest(ankle)]),
                                  np.stack([posed(hip), posed(knee), posed(ankle)], axis=1), hinge, pelvis)

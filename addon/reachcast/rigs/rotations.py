@@ -12,9 +12,19 @@ Array = NDArray[np.float64]
 _TINY = 1e-12
 
 
+def cross(a: Array, b: Array) -> Array:
+    """a x b for stacks that broadcast; several times faster than numpy's own for the few rows of a motion."""
+    ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
+    bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
+    x = ay * bz - az * by
+    out = np.empty(x.shape + (3,))
+    out[..., 0], out[..., 1], out[..., 2] = x, az * bx - ax * bz, ax * by - ay * bx
+    return out
+
+
 def normalise(vectors: Array) -> Array:
     """Unit vectors; a vector of (almost) no length stays as it is."""
-    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    length = np.sqrt(np.einsum("...i,...i->...", vectors, vectors))[..., None]
     return vectors / np.where(length < _TINY, 1.0, length)
 
 
@@ -28,7 +38,7 @@ def transpose(rotation: Array) -> Array:
 
 
 def dot(a: Array, b: Array) -> Array:
-    return np.sum(a * b, axis=-1)
+    return np.einsum("...i,...i->...", a, b)
 
 
 def reject(vectors: Array, axis: Array) -> Array:
@@ -39,40 +49,47 @@ def reject(vectors: Array, axis: Array) -> Array:
 def any_across(axis: Array) -> Array:
     """Some unit vector across each unit `axis`, the same for the same axis."""
     least = np.eye(3)[np.argmin(np.abs(axis), axis=-1)]
-    return normalise(np.cross(axis, least))
+    return normalise(cross(axis, least))
 
 
 def frame(primary: Array, secondary: Array) -> Array:
     """Right-handed frames with columns: along `primary` exactly, towards `secondary`, and their cross product."""
     first = normalise(primary)
     across = reject(np.broadcast_to(secondary, first.shape), first)
-    second = normalise(np.where(np.linalg.norm(across, axis=-1, keepdims=True) < 1e-9, any_across(first), across))
-    return np.stack([first, second, np.cross(first, second)], axis=-1)
+    lost = dot(across, across) < 1e-18
+    if np.any(lost):
+        across = np.where(lost[..., None], any_across(first), across)
+    second = normalise(across)
+    out = np.empty(first.shape + (3,))
+    out[..., 0], out[..., 1], out[..., 2] = first, second, cross(first, second)
+    return out
 
 
 def axis_rotation(axis: Array, angle: Array) -> Array:
     """Turns by `angle` (...,) radians about the unit `axis` (..., 3)."""
     axis, angle = np.asarray(axis, float), np.asarray(angle, float)
-    cross = _cross_matrix(axis)
+    skew = _cross_matrix(axis)
     sine, versine = np.sin(angle)[..., None, None], (1.0 - np.cos(angle))[..., None, None]
-    return np.eye(3) + sine * cross + versine * (cross @ cross)
+    return np.eye(3) + sine * skew + versine * (skew @ skew)
 
 
 def aim(start: Array, end: Array) -> Array:
     """The smallest turns that bring unit vectors `start` onto `end`; half a turn about some axis when they oppose."""
     start, end = np.broadcast_arrays(start, end)
     cosine = dot(start, end)
-    cross = _cross_matrix(np.cross(start, end))
+    skew = _cross_matrix(cross(start, end))
     opposed = cosine < -1.0 + 1e-12
     scale = 1.0 / np.where(opposed, 1.0, 1.0 + cosine)
-    turned = np.eye(3) + cross + scale[..., None, None] * (cross @ cross)
+    turned = np.eye(3) + skew + scale[..., None, None] * (skew @ skew)
+    if not np.any(opposed):
+        return turned
     half_turn = axis_rotation(any_across(start), np.full(cosine.shape, np.pi))
     return np.where(opposed[..., None, None], half_turn, turned)
 
 
 def signed_angle(start: Array, end: Array, axis: Array) -> Array:
     """Angle (...,) in (-pi, pi] from `start` to `end` seen along the unit `axis` they are across."""
-    return np.arctan2(dot(axis, np.cross(start, end)), dot(start, end))
+    return np.arctan2(dot(axis, cross(start, end)), dot(start, end))
 
 
 def twist_angle(rotation: Array, axis: Array) -> Array:
@@ -99,11 +116,12 @@ def to_quaternion(rotation: Array) -> Array:
 def from_quaternion(quaternion: Array) -> Array:
     """Rotation matrices of quaternions, which are normalised first."""
     q = normalise(np.asarray(quaternion, float))
-    cross = _cross_matrix(q[..., 1:])
-    return np.eye(3) + 2.0 * q[..., :1, None] * cross + 2.0 * (cross @ cross)
+    skew = _cross_matrix(q[..., 1:])
+    return np.eye(3) + 2.0 * q[..., :1, None] * skew + 2.0 * (skew @ skew)
 
 
 def _cross_matrix(v: Array) -> Array:
-    zero = np.zeros(v.shape[:-1])
-    x, y, z = v[..., 0], v[..., 1], v[..., 2]
-    return np.stack([np.stack([zero, -z, y], -1), np.stack([z, zero, -x], -1), np.stack([-y, x, zero], -1)], -2)
+    out = np.zeros(v.shape + (3,))
+    out[..., 2, 1], out[..., 0, 2], out[..., 1, 0] = v[..., 0], v[..., 1], v[..., 2]
+    out[..., 1, 2], out[..., 2, 0], out[..., 0, 1] = -v[..., 0], -v[..., 1], -v[..., 2]
+    return out
