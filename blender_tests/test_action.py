@@ -270,7 +270,7 @@ class Refused(Scene):
         self.refused("Worker", "add")
         self.rig.animation_data.action_blend_type = "REPLACE"
         self.box.constraints.new("LIMIT_LOCATION")
-        self.refused("Box", "constraints")
+        self.refused("Box", "constraint 'Limit Location'")
 
     def test_the_button_reports_the_same_sentence(self) -> None:
         settings = bpy.context.scene.reachcast

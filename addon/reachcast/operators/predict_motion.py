@@ -27,7 +27,7 @@ class REACHCAST_OT_predict_motion(bpy.types.Operator):
                 settings.rig, settings.shelf, corpus=settings.corpus, home=settings.home, box=settings.box,
                 stature=settings.stature or None, sex=core_sex(settings.sex), bone_map=settings.bone_map or None,
                 scene=context.scene)
-        except ValueError as error:
+        except (ValueError, RuntimeError) as error:  # a mistake of the user's; a file that cannot be used
             context.window_manager.reachcast_problem = str(error)
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

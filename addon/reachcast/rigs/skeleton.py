@@ -20,7 +20,9 @@ MAX_LEAN_DEG = 60.0
 _SOLE = 0.05
 #: (forward, up) of a person who stands and looks ahead, as parts of the height; as native/src/body has them.
 _C7T1_TO_TRAGION, _TRAGION_TO_NASION = (0.034, 0.074), (0.054, 0.008)
-_HAND_HALF_WIDTH = 0.023  #: from grip to the front of the hand, as a part of the height
+_HALF_HAND = 0.25          #: from grip to the front of the hand, as a part of wrist to grip; as native/src/body has it
+_LEAST_TRIANGLE = 0.002    #: height of the flattest triangle of joints that still shows a turn, as a part of the height
+_LEAST_FORWARD = -0.1      #: forward part of a foot's direction; feet that point straight down are no mistake
 
 
 @dataclass(frozen=True)
@@ -33,6 +35,7 @@ class Bones:
     tails: Array              #: (B, 3)
     rotations: Array          #: (B, 3, 3): columns are the bone's own x, y (head to tail), z
     origin: Array             #: (3,) the armature's own origin
+    axes: Array               #: (3, 3): columns are the armature's own x, y, z
     scale: float = 1.0        #: world metres per unit of the armature
 
     def index(self, name: str) -> int:
@@ -94,6 +97,8 @@ def build_skeleton(name: str, bones: Bones, bone_map: BoneMap) -> Skeleton:
     joints = _main_joints(bones, fitted, segments)
     axes = _body_axes(name, joints)
     _check_lengths(name, joints, top - floor)
+    _check_triangles(name, fitted, joints, top - floor)
+    _check_sides(name, fitted, joints, axes)
     _add_derived_joints(joints, axes, top - floor)
     ankles = 0.5 * (joints[INDEX["left_ankle"]] + joints[INDEX["right_ankle"]])
     return Skeleton(name, bones, fitted, segments, tuple(keyed), joints, np.array([*ankles[:2], floor]), axes,
@@ -170,26 +175,46 @@ def _check_lengths(name: str, joints: Array, height: float) -> None:
         if np.linalg.norm(joints[INDEX[end]] - joints[INDEX[start]]) < 1e-6 * max(height, 1e-9):
             raise ValueError(f"Rig '{name}': {start.replace('_', ' ')} and {end.replace('_', ' ')} are the same point, "
                              f"so there is nothing to turn between them")
-    spine = normalise(joints[INDEX["c7t1"]] - joints[INDEX["l5s1"]])
-    for word in ("left", "right"):
-        arm = joints[INDEX[f"{word}_clavicle"]] - joints[INDEX["l5s1"]]
-        if np.linalg.norm(np.cross(spine, arm)) < 0.002 * height:
-            raise ValueError(f"Rig '{name}': the {word} clavicle starts on the line of the spine, so the turn of the "
-                             f"chest about it cannot be read from the joints; map a clavicle that starts beside it")
+
+
+def _check_triangles(name: str, bone_map: BoneMap, joints: Array, height: float) -> None:
+    """Pelvis and chest turn with the triangles of their joints; three joints in a line leave the turn about it open."""
+    heads = {"left_hip": "thigh.L", "right_hip": "thigh.R", "l5s1": "spine", "c7t1": "neck",
+             "left_clavicle": "clavicle.L", "right_clavicle": "clavicle.R"}
+    for part, corners in (("pelvis", ("left_hip", "right_hip", "l5s1")), ("chest", ("l5s1", "c7t1", "left_clavicle")),
+                          ("chest", ("l5s1", "c7t1", "right_clavicle"))):
+        places = joints[[INDEX[corner] for corner in corners]]
+        longest = max(np.linalg.norm(places[i] - places[i - 1]) for i in range(3))
+        if np.linalg.norm(np.cross(places[1] - places[0], places[2] - places[0])) < _LEAST_TRIANGLE * height * longest:
+            bones = ", ".join(f"'{bone_map.segments[heads[corner]]}'" for corner in corners)
+            raise ValueError(f"Rig '{name}': the bones {bones} start on one line, so the turn of the {part} about it "
+                             f"cannot be read from them; move one of them or map others")
+
+
+def _check_sides(name: str, bone_map: BoneMap, joints: Array, axes: Array) -> None:
+    """The body frame has left and right from the hips: the arms must agree, and the feet must point forward."""
+    def bones(segment: str) -> str:
+        return f"'{bone_map.segments[f'{segment}.L']}' and '{bone_map.segments[f'{segment}.R']}'"
+
+    feet = [normalise(joints[INDEX[f"{word}_ball"]] - joints[INDEX[f"{word}_ankle"]]) @ axes[1] for _, word in SIDES]
+    if min(feet) < _LEAST_FORWARD:
+        raise ValueError(f"Rig '{name}': seen from the hips, {bones('foot')} point backwards; {bones('thigh')} look "
+                         f"exchanged, left with right")
+    for joint, segment in (("clavicle", "clavicle"), ("shoulder", "upper_arm")):
+        if (joints[INDEX[f"right_{joint}"]] - joints[INDEX[f"left_{joint}"]]) @ axes[0] <= 0.0:
+            raise ValueError(f"Rig '{name}': {bones(segment)} lie on the other sides than {bones('thigh')}; they look "
+                             f"exchanged, left with right")
 
 
 def _add_derived_joints(joints: Array, axes: Array, height: float) -> None:
     """Head: where a person's would be who looks ahead as the rig does, whichever way its neck bones happen to lean.
-    Hand: front and back either side of the grip, the front towards the thumb."""
+    Hand: front and back on the line from the wrist through the grip, which lies midway between them."""
     for start, end, (forward, up) in (("c7t1", "tragion", _C7T1_TO_TRAGION), ("tragion", "nasion", _TRAGION_TO_NASION)):
         joints[INDEX[end]] = joints[INDEX[start]] + height * (forward * axes[1] + up * axes[2])
-    for side, word in SIDES:
-        wrist, grip = joints[INDEX[f"{word}_wrist"]], joints[INDEX[f"{word}_grip"]]
-        along = normalise(grip - wrist)
-        palm = rest_palm(joints, axes, side)
-        thumb = normalise(np.cross(along, palm) if side == "R" else np.cross(palm, along))
-        joints[INDEX[f"{word}_hand_front"]] = grip + _HAND_HALF_WIDTH * height * thumb
-        joints[INDEX[f"{word}_hand_back"]] = grip - _HAND_HALF_WIDTH * height * thumb
+    for _, word in SIDES:
+        grip = joints[INDEX[f"{word}_grip"]]
+        half = _HALF_HAND * (grip - joints[INDEX[f"{word}_wrist"]])
+        joints[INDEX[f"{word}_hand_front"]], joints[INDEX[f"{word}_hand_back"]] = grip + half, grip - half
 
 
 def rest_hinge(upper: Array, axes: Array) -> Array:

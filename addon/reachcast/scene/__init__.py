@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The only code that reads and writes Blender's data.
 
+movers.py          what else than keys moves an object
 transforms.py      world transforms of objects, checked
 read_rig.py        armature object -> rigs.skeleton.Skeleton
 read_task.py       shelf, home and box -> home, target, object in the body frame

@@ -5,7 +5,7 @@ It is also the only file that knows that an Action has slots and channel bags fr
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import bpy
@@ -54,6 +54,13 @@ def refuse_unwritable(owner: bpy.types.Object) -> None:
     if animation.action_influence < 1.0 or animation.action_blend_type != "REPLACE":
         raise ValueError(f"Object '{owner.name}' blends its Action ({animation.action_blend_type.lower()}, influence "
                          f"{animation.action_influence:g}); it must replace with influence 1")
+
+
+def curves_of(action: bpy.types.Action) -> Iterator[bpy.types.FCurve]:
+    """The F-curves of an Action that are not muted, of all its slots."""
+    bags = [bag for layer in action.layers for strip in layer.strips for bag in strip.channelbags] \
+        if hasattr(action, "layers") else [action]
+    return (curve for bag in bags for curve in bag.fcurves if not curve.mute)
 
 
 def _fill(curve: bpy.types.FCurve, first_frame: int, values: Array, interpolation: int, handle: int) -> None:

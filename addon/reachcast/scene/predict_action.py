@@ -20,9 +20,10 @@ from ..rigs.retarget import EXACT_JOINTS, RigPose, posed_joints, retarget
 from ..rigs.rotations import Array, axis_rotation
 from ..rigs.skeleton import Skeleton
 from .action_writer import refuse_unwritable
+from .movers import moves_bones, moves_object, refuse_moved
 from .read_rig import read_rig
 from .read_task import Lift, read_lift, refuse_held_box
-from .transforms import evaluate_transforms
+from .transforms import above_matrix, layer_of, refuse_removed
 from .write_motion import box_world_places, write_box_action, write_rig_action
 
 EVENTS = ("grasp", "lift_off", "placed", "release", "end")
@@ -51,7 +52,7 @@ class PredictionResult:
     box_action: str | None
     frames: Mapping[str, int]                             #: scene frame of each of EVENTS
     first_frame: int
-    neighbours: tuple[Neighbour, ...]                     #: nearest first
+    neighbours: tuple[Neighbour, ...]                     #: heaviest first
     outside_data: bool
     outside_reasons: tuple[str, ...]
     corrections: tuple[str, ...]
@@ -77,23 +78,23 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
     first: on ValueError nothing has been written.
     """
     scene = scene or bpy.context.scene
-    core = native.core()
-    evaluate_transforms()
-    skeleton = read_rig(rig, bone_map)
-    lift = read_lift(skeleton, shelf, home, box)
-    for owner in filter(None, (rig, box)):
-        refuse_unwritable(owner)
-    if box is not None:
-        refuse_held_box(box, rig)
-    motion = _predict(core, skeleton, lift, _corpus(core, corpus), _subject(core, skeleton, stature, sex, age, mass),
+    core, layer = native.core(), layer_of(scene)
+    for item, what in ((rig, "rig"), (shelf, "shelf"), (home, "home"), (box, "box")):
+        refuse_removed(item, what)
+    skeleton = read_rig(rig, bone_map, layer)
+    lift = read_lift(skeleton, shelf, home, box, layer)
+    _refuse_owners(rig, skeleton, box, layer)
+    subject = _subject(core, skeleton, stature, sex, age, mass)
+    motion = _predict(core, skeleton, lift, corpus, subject,
                       {"frame_rate": scene.render.fps / scene.render.fps_base, **options})
     joints = skeleton.to_world(np.asarray(motion.positions, float))
     pose = retarget(skeleton, joints)
     errors = _errors(skeleton, lift, motion, pose, joints)
     first = scene.frame_current if start_frame is None else int(start_frame)
     name = f"{rig.name} to {shelf.name}"
+    above = above_matrix(box, layer) if box else None
     action = write_rig_action(rig, skeleton, pose, name, first)
-    box_action = _write_box(box, skeleton, lift, motion, f"{box.name} to {shelf.name}", first) if box else None
+    box_action = _write_box(box, above, skeleton, lift, motion, f"{box.name} to {shelf.name}", first) if box else None
     result = PredictionResult(
         rig.name, action.name, box_action.name if box_action else None,
         MappingProxyType({event: first + int(motion.events[event]) for event in EVENTS}), first,
@@ -105,6 +106,18 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
     return result
 
 
+def _refuse_owners(rig: bpy.types.Object, skeleton: Skeleton, box: bpy.types.Object | None,
+                   layer: bpy.types.ViewLayer) -> None:
+    """ValueError when an Action on the rig or the box cannot be written or would not be all that moves it."""
+    keyed = frozenset(skeleton.bones.names[bone] for bone in skeleton.keyed)
+    refuse_unwritable(rig)
+    refuse_moved(rig, "Rig", box, moves_bones(keyed))
+    if box is not None:
+        refuse_unwritable(box)
+        refuse_moved(box, "Box", rig, moves_object)
+        refuse_held_box(box, layer)
+
+
 def _corpus(core: ModuleType, corpus: object) -> object:
     if corpus is None or corpus == "":
         corpus = default_corpus()
@@ -112,6 +125,8 @@ def _corpus(core: ModuleType, corpus: object) -> object:
             raise ValueError("No corpus is given and none ships with this build of the add-on; choose a corpus file")
     if isinstance(corpus, (str, os.PathLike)):
         return core.Corpus.open(bpy.path.abspath(os.fspath(corpus)))
+    if not isinstance(corpus, core.Corpus):
+        raise ValueError(f"The corpus must be a path or an opened corpus, not {corpus!r}")
     return corpus
 
 
@@ -130,7 +145,10 @@ def _predict(core: ModuleType, skeleton: Skeleton, lift: Lift, corpus: object, s
                               grip_distance=box.grip_distance),
                      home_yaw=lift.home_yaw, target_yaw=lift.target_yaw)
     body = core.Body.from_posture(skeleton.to_body(skeleton.joints), skeleton.height)
-    motion = core.predict(corpus, subject, task, body, **options)
+    try:
+        motion = core.predict(_corpus(core, corpus), subject, task, body, **options)
+    except RuntimeError as error:  # what the native module says of a damaged or busy file, in one sentence
+        raise ValueError(str(error)) from error
     if missing := [event for event in EVENTS if event not in motion.events]:
         raise ValueError(f"The predicted motion lacks the events {', '.join(missing)}")
     return motion
@@ -144,7 +162,8 @@ def _errors(skeleton: Skeleton, lift: Lift, motion: Any, pose: RigPose, joints: 
     if (worst := float(misfit.max())) > MAX_MISFIT_M:
         frame, joint = np.unravel_index(int(misfit.argmax()), misfit.shape)
         raise ValueError(f"Rig '{skeleton.name}' cannot follow the predicted motion: "
-                         f"{JOINTS[EXACT_JOINTS[joint]]} would be {worst * 1000:.1f} mm off at frame {frame}; the limit is {MAX_MISFIT_M * 1000:g} mm")
+                         f"{JOINTS[EXACT_JOINTS[joint]]} would be {worst * 1000:.1f} mm off at frame {frame}; "
+                         f"the limit is {MAX_MISFIT_M * 1000:g} mm")
     origins, turns = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
     held = slice(int(motion.events["grasp"]), int(motion.events["release"]) + 1)
     grip = 0.0
@@ -155,12 +174,12 @@ def _errors(skeleton: Skeleton, lift: Lift, motion: Any, pose: RigPose, joints: 
     return {"landing": float(np.linalg.norm(landed - skeleton.to_world(lift.target))), "grip": grip, "pose": worst}
 
 
-def _write_box(box: bpy.types.Object, skeleton: Skeleton, lift: Lift, motion: Any, name: str,
+def _write_box(box: bpy.types.Object, above: Array, skeleton: Skeleton, lift: Lift, motion: Any, name: str,
                first: int) -> bpy.types.Action:
     origins, turns = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
     if lift.half_turn:
         turns = turns @ axis_rotation(np.array([0.0, 0.0, 1.0]), np.pi)
-    return write_box_action(box, origins + turns @ np.array(lift.box.origin_offset), turns, name, first)
+    return write_box_action(box, above, origins + turns @ np.array(lift.box.origin_offset), turns, name, first)
 
 
 def _said(correction: Any) -> str:

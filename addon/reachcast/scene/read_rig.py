@@ -9,13 +9,17 @@ import numpy as np
 
 from ..rigs.bone_map import BoneMap, detect, load_bone_map
 from ..rigs.skeleton import Bones, Skeleton, build_skeleton
-from .transforms import Placement, even_placement
+from .transforms import Placement, described, even_placement
 
 
-def read_rig(rig: bpy.types.Object, bone_map: BoneMap | str | Path | None = None) -> Skeleton:
-    """The rest skeleton of `rig`. `bone_map`: a map, a JSON file's path, or None to recognise the bones' names."""
+def read_rig(rig: bpy.types.Object, bone_map: BoneMap | str | Path | None = None,
+             layer: bpy.types.ViewLayer | None = None) -> Skeleton:
+    """The rest skeleton of `rig` where `layer` (the user's own by default) shows it.
+
+    bone_map: a map, a JSON file's path, or None to recognise the bones' names.
+    """
     if not isinstance(rig, bpy.types.Object) or rig.type != "ARMATURE":
-        raise ValueError(f"The rig must be an armature object, not {_described(rig)}")
+        raise ValueError(f"The rig must be an armature object, not {described(rig)}")
     if rig.mode == "EDIT":
         raise ValueError(f"Rig '{rig.name}' is in Edit Mode; leave it first (Tab)")
     if rig.data.pose_position == "REST":
@@ -25,7 +29,7 @@ def read_rig(rig: bpy.types.Object, bone_map: BoneMap | str | Path | None = None
         bone_map = detect(names, rig.name)
     elif not isinstance(bone_map, BoneMap):
         bone_map = load_bone_map(bpy.path.abspath(str(bone_map)))
-    skeleton = build_skeleton(rig.name, _bones(rig, even_placement(rig)), bone_map)
+    skeleton = build_skeleton(rig.name, _bones(rig, even_placement(rig, layer)), bone_map)
     _refuse_what_overrides_keys(rig, skeleton)
     return skeleton
 
@@ -39,7 +43,7 @@ def _bones(rig: bpy.types.Object, place: Placement) -> Bones:
     return Bones(
         names=tuple(index), parents=tuple(index[bone.parent.name] if bone.parent else -1 for bone in bones),
         heads=place.to_world(rest[:, :3, 3]), tails=place.to_world(tails), rotations=place.rotation @ (left @ right),
-        origin=place.origin, scale=float(np.mean(place.scale)))
+        origin=place.origin, axes=place.rotation, scale=float(np.mean(place.scale)))
 
 
 def _parents_first(bones: list[bpy.types.Bone]) -> list[bpy.types.Bone]:
@@ -85,9 +89,3 @@ def _driven(rig: bpy.types.Object, names: set[str]) -> list[str]:
             if bone in names and channel.split("_")[0] in {"location", "rotation", "scale"}:
                 found.add(bone)
     return sorted(found)
-
-
-def _described(item: object) -> str:
-    if item is None:
-        return "nothing"
-    return f"{item.type.lower()} '{item.name}'" if isinstance(item, bpy.types.Object) else repr(item)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..rigs.rotations import Array
 from ..rigs.skeleton import Skeleton
-from .transforms import MAX_UNEVEN, placement
+from .transforms import MAX_UNEVEN, above_matrix, described, placement
 
 HANDLE_HEIGHT = "reachcast_handle_height"   #: custom property of a box, metres above its base
 GRIP_DISTANCE = "reachcast_grip_distance"   #: custom property of a box, metres between the centres of the two grips
@@ -19,6 +19,7 @@ MAX_TILT_DEG = 5.0
 DEFAULT_MASS = 5.0
 _DEFAULT_SIZE = (0.35, 0.30, 0.25)
 _HALF_HAND = 0.02                           #: metres from a box's wall to the middle of a hand that holds it
+LEAST_WAY_M = 0.01                          #: the native module's own limit, from home to target
 _MOST_METRES = 3.0                          #: no pair of hands holds a larger box
 
 
@@ -48,37 +49,43 @@ class Lift:
 
 
 def read_lift(skeleton: Skeleton, shelf: bpy.types.Object, home: bpy.types.Object | None,
-              box: bpy.types.Object | None) -> Lift:
+              box: bpy.types.Object | None, layer: bpy.types.ViewLayer | None = None) -> Lift:
     """The task: the box's base goes from `home` (else from where the box stands, else from the front of the body at
-    waist height) to `shelf`. ValueError names the object, its value and the limit."""
+    waist height) to `shelf`, as `layer` (the user's own by default) shows them. ValueError names the object, its value
+    and the limit."""
     if not isinstance(shelf, bpy.types.Object):
-        raise ValueError("The shelf must be an object (an Empty where the box is to end), not nothing")
-    shape = read_box(box) if box is not None else _default_box()
-    target = placement(shelf)
+        raise ValueError(f"The shelf must be an object (an Empty where the box is to end), not {described(shelf)}")
+    if home is not None and not isinstance(home, bpy.types.Object):
+        raise ValueError(f"The home must be an object (an Empty where the box starts) or None, not {described(home)}")
+    shape = read_box(box, layer) if box is not None else _default_box()
+    target = placement(shelf, layer)
     target_yaw, _ = _half_turns(_yaw(skeleton, target.rotation))
     if home is not None:
-        start = placement(home)
+        start = placement(home, layer)
         place, rotation = start.origin, start.rotation
     elif box is not None:
-        start = placement(box)
+        start = placement(box, layer)
         rotation = start.rotation
         place = start.origin - rotation @ np.array(shape.origin_offset)
+        if np.linalg.norm(place - target.origin) < LEAST_WAY_M:
+            raise ValueError(f"Box '{box.name}' already stands on '{shelf.name}'; go to a frame in which it stands "
+                             f"where it is to start, or choose a home")
     else:
         return Lift(_in_front(skeleton, shape), _placed(skeleton, target.origin), 0.0, target_yaw, shape, False)
     home_yaw, half_turn = _half_turns(_yaw(skeleton, rotation))
     return Lift(_placed(skeleton, place), _placed(skeleton, target.origin), home_yaw, target_yaw, shape, half_turn)
 
 
-def read_box(box: bpy.types.Object) -> BoxShape:
-    """Size and handles of a box mesh from its bounds in its own axes; ValueError when it cannot be carried."""
+def read_box(box: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> BoxShape:
+    """Size and handles of a box mesh from the bounds of its own vertices in its own axes; ValueError when it cannot be
+    carried. What modifiers make of the mesh is not counted: hands hold the box as it was modelled."""
     if not isinstance(box, bpy.types.Object) or box.type != "MESH":
-        raise ValueError(f"The box must be a mesh object, not {getattr(box, 'name', box)!r}")
-    place = placement(box)
+        raise ValueError(f"The box must be a mesh object, not {described(box)}")
+    place = placement(box, layer)
     tilt = math.degrees(math.acos(float(np.clip(place.rotation[2, 2], -1.0, 1.0))))
     if tilt > MAX_TILT_DEG:
         raise ValueError(f"Box '{box.name}' is tilted by {tilt:.0f} degrees; the limit is {MAX_TILT_DEG:.0f}")
-    corners = np.array(box.bound_box, dtype=float) * place.scale
-    low, high = corners.min(axis=0), corners.max(axis=0)
+    low, high = (corner * place.scale for corner in _bounds(box))
     size = high - low
     for axis, length in zip(("width (x)", "depth (y)", "height (z)"), size):
         if not 1e-3 <= length <= _MOST_METRES:
@@ -91,22 +98,24 @@ def read_box(box: bpy.types.Object) -> BoxShape:
     return BoxShape(*(float(length) for length in size), handle, grips, mass, tuple(float(part) for part in -base))
 
 
-def refuse_held_box(box: bpy.types.Object, rig: bpy.types.Object) -> None:
-    """ValueError when keys on the box would not decide where it is."""
-    if any(not constraint.mute for constraint in box.constraints):
-        raise ValueError(f"Box '{box.name}' has constraints that would move it; mute or remove them")
+def _bounds(box: bpy.types.Object) -> tuple[Array, Array]:
+    """The least and the greatest x, y, z of the mesh's own vertices."""
+    places = np.empty(3 * len(box.data.vertices), dtype=np.float32)
+    if not len(places):
+        raise ValueError(f"Box '{box.name}' has no vertices, so it has no size")
+    box.data.vertices.foreach_get("co", places)
+    corners = places.reshape(-1, 3).astype(float)
+    return corners.min(axis=0), corners.max(axis=0)
+
+
+def refuse_held_box(box: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> None:
+    """ValueError when keys on the box could not bring it where the hands are."""
     if any(box.delta_location) or any(box.delta_rotation_euler) or tuple(box.delta_scale) != (1.0, 1.0, 1.0) \
             or tuple(box.delta_rotation_quaternion) != (1.0, 0.0, 0.0, 0.0):
         raise ValueError(f"Box '{box.name}' has delta transforms; clear them first")
-    above = np.array(box.matrix_world @ box.matrix_basis.inverted_safe(), dtype=float)[:3, :3]
-    lengths = np.linalg.norm(above, axis=0)
+    lengths = np.linalg.norm(above_matrix(box, layer)[:3, :3], axis=0)
     if not np.all(np.isfinite(lengths)) or np.ptp(lengths) > MAX_UNEVEN * np.max(lengths):
         raise ValueError(f"Box '{box.name}' has a parent that is scaled unevenly; give the parent an even scale")
-    parent = box.parent
-    while parent is not None:
-        if parent == rig:
-            raise ValueError(f"Box '{box.name}' is parented to the rig '{rig.name}'; clear its parent (Alt P)")
-        parent = parent.parent
 
 
 def _number(item: bpy.types.Object, name: str, default: float, least: float, most: float) -> float:

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 from ..rigs.rotations import Array
+from .movers import movers, moves_object
 
 #: How far an object's axes may be from one common length, or from right angles, as a part of that length.
 MAX_UNEVEN = 1e-4
@@ -25,9 +27,50 @@ class Placement:
         return self.origin + (np.asarray(points, float) * self.scale) @ self.rotation.T
 
 
-def placement(item: bpy.types.Object) -> Placement:
+def layer_of(scene: bpy.types.Scene) -> bpy.types.ViewLayer:
+    """The view layer in which the objects of `scene` are read: the user's own in the user's scene, else the first."""
+    return bpy.context.view_layer if scene == bpy.context.scene else scene.view_layers[0]
+
+
+def refuse_removed(item: object, what: str) -> None:
+    """ValueError for an object that has been deleted; any use of it would raise ReferenceError."""
+    if isinstance(item, bpy.types.Object):
+        try:
+            item.name  # noqa: B018
+        except ReferenceError:
+            raise ValueError(f"The {what} has been removed from the file; choose another") from None
+
+
+def world_matrix(item: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> Array:
+    """(4, 4): where `item` is in the world as `layer` (the user's own by default) evaluates it, brought up to date.
+
+    What is hidden in all viewports or lies in an excluded collection is not evaluated: it is placed by its own
+    transform and its parents'; ValueError when something else moves it.
+    """
+    layer = layer or bpy.context.view_layer
+    layer.update()
+    return np.array(_world(item, layer.depsgraph), dtype=float)
+
+
+def _world(item: bpy.types.Object, graph: bpy.types.Depsgraph) -> Matrix:
+    shown = item.evaluated_get(graph)
+    if shown.is_evaluated:
+        return shown.matrix_world
+    if mover := next(movers(item, moves_object), None):
+        raise ValueError(f"Object '{item.name}' follows {mover.what}, but not while it is hidden; show it")
+    if item.parent is None:
+        return item.matrix_basis
+    return _world(item.parent, graph) @ item.matrix_parent_inverse @ item.matrix_basis
+
+
+def above_matrix(item: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> Array:
+    """(4, 4): world = above @ the object's own location, rotation and scale."""
+    return world_matrix(item, layer) @ np.linalg.pinv(np.array(item.matrix_basis, dtype=float))
+
+
+def placement(item: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> Placement:
     """Where an object is in the world; ValueError for NaN, zero, mirrored or sheared transforms."""
-    matrix = np.array(item.matrix_world, dtype=float)
+    matrix = world_matrix(item, layer)
     if not np.all(np.isfinite(matrix)):
         raise ValueError(f"Object '{item.name}' has a transform that is not a number")
     axes = matrix[:3, :3]
@@ -44,18 +87,20 @@ def placement(item: bpy.types.Object) -> Placement:
     return Placement(matrix[:3, 3], left @ right, scale)
 
 
-def even_placement(item: bpy.types.Object) -> Placement:
+def even_placement(item: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> Placement:
     """Like `placement`; also refuses a scale that differs between the axes."""
-    place = placement(item)
+    place = placement(item, layer)
     if np.ptp(place.scale) > MAX_UNEVEN * np.max(place.scale):
         raise ValueError(f"Object '{item.name}' is scaled unevenly, by {_listed(place.scale)}; "
                          f"the three must be equal: apply its scale (Ctrl A)")
     return place
 
 
-def evaluate_transforms() -> None:
-    """Brings every `matrix_world` up to date with what a script has just set."""
-    bpy.context.view_layer.update()
+def described(item: object) -> str:
+    """What an argument is that should have been an object of another kind."""
+    if item is None:
+        return "nothing"
+    return f"{item.type.lower()} '{item.name}'" if isinstance(item, bpy.types.Object) else repr(item)
 
 
 def _listed(values: object) -> str:

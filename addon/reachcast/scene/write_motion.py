@@ -11,7 +11,6 @@ from ..rigs.retarget import RigPose, local_rotations
 from ..rigs.rotations import Array, from_quaternion
 from ..rigs.skeleton import Skeleton
 from .action_writer import Channel, write_action
-from .transforms import even_placement
 
 _ROTATION_PATHS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
 
@@ -40,20 +39,21 @@ def write_rig_action(rig: bpy.types.Object, skeleton: Skeleton, pose: RigPose, n
 def _pelvis_location(rig: bpy.types.Object, skeleton: Skeleton, pose: RigPose) -> Array:
     """(F, 3) in the axes the bone's location is given in: its own, or its parent's when Local Location is off."""
     bones, pelvis = skeleton.bones, pose.pelvis
-    place = even_placement(rig)
     moved = (pose.heads[pelvis] - bones.heads[pelvis]) / bones.scale
     if rig.data.bones[bones.names[pelvis]].use_local_location:
         axes = bones.rotations[pelvis]
     else:
         parent = bones.parents[pelvis]
-        axes = place.rotation if parent < 0 else bones.rotations[parent]
+        axes = bones.axes if parent < 0 else bones.rotations[parent]
     return moved @ axes
 
 
-def write_box_action(box: bpy.types.Object, origins: Array, rotations: Array, name: str,
+def write_box_action(box: bpy.types.Object, above: Array, origins: Array, rotations: Array, name: str,
                      first_frame: int) -> bpy.types.Action:
-    """A new Action on `box`: its origin (F, 3) and rotation (F, 3, 3) in the world, in its own rotation mode."""
-    above = np.array(box.matrix_world @ box.matrix_basis.inverted(), dtype=float)
+    """A new Action on `box`: its origin (F, 3) and rotation (F, 3, 3) in the world, in its own rotation mode.
+
+    above (4, 4): `transforms.above_matrix` of the box, of even scale.
+    """
     scale = np.cbrt(np.linalg.det(above[:3, :3]))
     turned = above[:3, :3] / scale
     places = (origins - above[:3, 3]) @ turned / scale
