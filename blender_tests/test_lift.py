@@ -266,32 +266,3 @@ class SameMotionAnywhere(unittest.TestCase):
                     joints = self.joints(self.rig_at(name, around, unit, has_parent), around)
                     self.assertEqual(joints.shape, plain.shape)
                     self.assertLess(float(np.abs(joints - plain).max()), SAME_M)
-
-
-class NaturalArms(unittest.TestCase):
-    def test_elbows_stay_below_or_outside_the_arms(self) -> None:
-        """Independent of bones' own hinges: an elbow points down when the arm points ahead, back when it hangs, ahead
-        when it is raised, or outwards from there; never the opposite way."""
-        least_cosine = math.cos(math.radians(120.0))  # of the swivel from down: a quarter turn outwards, and room
-        scene = lift_scene(rig_of("mannequin", 1.72))
-        for height, bearing in ((0.1, 0), (0.7, 60), (1.0, 0), (1.3, -60), (1.6, 0)):
-            scene.arrange(Place(height, bearing, 0.45, facing=True), "floor")
-            result = scene.predict(os.fspath(corpora.recorded_corpus()), start_frame=1)
-            joints = sample(scene.rig, read_rig(scene.rig), range(1, result.frames["end"] + 1)).joints
-            for side in ("left", "right"):
-                with self.subTest(height=height, bearing=bearing, side=side):
-                    self.assertGreater(float(elbow_cosines(joints, side).min()), least_cosine)
-
-
-def elbow_cosines(joints: np.ndarray, side: str) -> np.ndarray:
-    """(F,) cosine between where an elbow points and where a relaxed one would; 1 where the arm is nearly straight."""
-    shoulder, elbow, wrist = (joints[:, INDEX[f"{side}_{name}"]] for name in ("shoulder", "elbow", "wrist"))
-    right = joints[:, INDEX["right_shoulder"]] - joints[:, INDEX["left_shoulder"]]
-    arm = wrist - shoulder
-    arm /= np.linalg.norm(arm, axis=1, keepdims=True)
-    out = elbow - shoulder
-    out -= arm * np.sum(out * arm, axis=1, keepdims=True)
-    relaxed = np.cross(arm, right)
-    size, length = np.linalg.norm(relaxed, axis=1), np.linalg.norm(out, axis=1)
-    cosines = np.sum(out * relaxed, axis=1) / np.maximum(size * length, 1e-9)
-    return np.where((length > 0.03) & (size > 0.1), cosines, 1.0)

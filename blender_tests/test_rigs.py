@@ -163,7 +163,7 @@ class StraightLimbs(unittest.TestCase):
                 self.assertLess(fastest_joint(samples, skeleton, 24.0), 15.0)
                 for side, _ in SIDES:
                     self.assertGreaterEqual(knee_flexion(samples, skeleton, side).min(), 0.0)
-                    self.assertGreaterEqual(elbow_flexion(samples, skeleton, side).min(), 0.0)
+                    self.assertGreaterEqual(elbow_flexion(samples, side).min(), 0.0)
 
     def test_a_planted_foot_does_not_follow_the_knee(self) -> None:
         """The knee is carried round the leg, to behind it and back; foot and toe stay as they stood."""

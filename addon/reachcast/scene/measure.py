@@ -10,14 +10,19 @@ import bpy
 import numpy as np
 
 from ..rigs.joints import INDEX, JOINTS, SIDES
-from ..rigs.limbs import LEAST_REST_BEND_DEG
 from ..rigs.retarget import CARRIERS
-from ..rigs.rotations import Array, dot, normalise, to_quaternion, transpose, turn, twist_angle
-from ..rigs.skeleton import Skeleton, rest_bend, rest_hinge
+from ..rigs.rotations import Array, dot, normalise, reject, to_quaternion, transpose, turn, twist_angle
+from ..rigs.skeleton import Skeleton
 from .read_task import BoxShape
+from .transforms import layer_of
 
 #: A limb straighter than this has no side to which it bends.
 LEAST_BEND_DEG = 3.0
+#: Middle of an elbow's swivel outwards from a relaxed arm's: the median of the recorded lifts, whose range is -10 to 81.
+#: Half a turn about it is natural, so an elbow that is mirrored through its arm's line never is.
+NATURAL_SWIVEL_DEG = 30.0
+#: Sine of the angle between an arm and the line of the shoulders below which a relaxed elbow has no direction.
+LEAST_ASIDE = 0.1
 
 
 @dataclass(frozen=True)
@@ -41,7 +46,7 @@ class LiftMeasures:
     held_m: float               #: either grip to its handle, grasp to release
     left_foot_m: float          #: left ball or ankle from where it stood in the first frame; see `foot_slip`
     stretch: float              #: relative change of any bone's length or scale
-    least_elbow_deg: float      #: signed flexion; below zero is backwards
+    least_elbow_deg: float      #: signed flexion; below zero is backwards: see `elbow_flexion`
     least_knee_deg: float
     forearm_twist_deg: float    #: of the forearm on the upper arm and the hand on the forearm, about the forearm
     fastest_rad_s: float        #: any joint
@@ -61,21 +66,29 @@ def _kept_frame(scene: bpy.types.Scene) -> Iterator[None]:
 
 def sample(rig: bpy.types.Object, skeleton: Skeleton, frames: Sequence[int], box: bpy.types.Object | None = None,
            scene: bpy.types.Scene | None = None) -> Samples:
-    """Steps through `frames` and reads every keyed bone (and the box) from the dependency graph."""
+    """Steps through `frames` and reads every keyed bone (and the box) as the scene's view layer evaluates them."""
     scene = scene or bpy.context.scene
+    layer = layer_of(scene)
     names = [skeleton.bones.names[bone] for bone in skeleton.keyed]
     matrices, boxes = np.empty((len(frames), len(names), 4, 4)), np.empty((len(frames), 4, 4))
     with _kept_frame(scene):
         for row, frame in enumerate(frames):
             scene.frame_set(frame)
-            graph = bpy.context.evaluated_depsgraph_get()
-            shown = rig.evaluated_get(graph)
+            shown = _evaluated(rig, layer)
             world = shown.matrix_world
             for column, name in enumerate(names):
                 matrices[row, column] = world @ shown.pose.bones[name].matrix
             if box is not None:
-                boxes[row] = box.evaluated_get(graph).matrix_world
+                boxes[row] = _evaluated(box, layer).matrix_world
     return _samples(skeleton, tuple(frames), matrices, None if box is None else boxes)
+
+
+def _evaluated(item: bpy.types.Object, layer: bpy.types.ViewLayer) -> bpy.types.Object:
+    shown = item.evaluated_get(layer.depsgraph)
+    if not shown.is_evaluated:
+        raise ValueError(f"Object '{item.name}' is hidden or not in the view layer '{layer.name}', so nothing of it is "
+                         f"evaluated; show it")
+    return shown
 
 
 def _samples(skeleton: Skeleton, frames: tuple[int, ...], matrices: Array, boxes: Array | None) -> Samples:
@@ -105,7 +118,7 @@ def measure_lift(samples: Samples, skeleton: Skeleton, events: dict[str, int], f
     twists = [angle for side, _ in SIDES for angle in forearm_twists(samples, skeleton, side)]
     return LiftMeasures(
         landing, grasp, held, foot_slip(samples, "left"), float(np.abs(samples.stretch).max()),
-        min(float(elbow_flexion(samples, skeleton, side).min()) for side, _ in SIDES),
+        min(float(elbow_flexion(samples, side).min()) for side, _ in SIDES),
         min(float(knee_flexion(samples, skeleton, side).min()) for side, _ in SIDES),
         float(np.degrees(np.max(np.abs(twists)))), fastest_joint(samples, skeleton, frame_rate))
 
@@ -116,13 +129,22 @@ def foot_slip(samples: Samples, word: str) -> float:
     return float(np.linalg.norm(feet - feet[0], axis=2).max())
 
 
-def elbow_flexion(samples: Samples, skeleton: Skeleton, side: str) -> Array:
-    """(F,) degrees: positive when the elbow bends about the hinge of its upper arm bone. Zero if nearly straight."""
-    rest, word = skeleton.joint, dict(SIDES)[side]
-    straight = rest_hinge(normalise(rest(f"{word}_elbow") - rest(f"{word}_shoulder")), skeleton.axes)
-    names = ("shoulder", "elbow", "wrist")
-    hinge = rest_bend(skeleton.joints, side, names, straight, LEAST_REST_BEND_DEG)
-    return _flexion(samples, word, names, turn(samples.turns[skeleton.segments[f"upper_arm.{side}"]], hinge))
+def elbow_flexion(samples: Samples, side: str) -> Array:
+    """(F,) degrees: positive when the elbow lies on the natural side of the line from shoulder to wrist.
+
+    From joint centres alone, no bone's own hinge. A relaxed elbow lies below an arm that points ahead, behind one that
+    hangs, ahead of one that is raised: across the arm and the line of the shoulders. It swivels outwards from there.
+    Zero if nearly straight, or if the arm points along the shoulders.
+    """
+    word = dict(SIDES)[side]
+    shoulder, wrist, left, right = (samples.joints[:, INDEX[name]] for name in (
+        f"{word}_shoulder", f"{word}_wrist", "left_shoulder", "right_shoulder"))
+    arm, across = normalise(wrist - shoulder), normalise(right - left)
+    relaxed, outwards = np.cross(arm, across), reject(across if side == "R" else -across, arm)
+    middle = np.radians(NATURAL_SWIVEL_DEG)
+    natural = np.cos(middle) * relaxed + np.sin(middle) * outwards
+    natural[np.linalg.norm(relaxed, axis=1) < LEAST_ASIDE] = 0.0
+    return _flexion(samples, word, ("shoulder", "elbow", "wrist"), np.cross(natural, arm))
 
 
 def knee_flexion(samples: Samples, skeleton: Skeleton, side: str) -> Array:
