@@ -116,7 +116,7 @@ Holder::Holder(const Linkage& linkage, const Body& body, double body_mass_kg)
   for (const LimbSpec& limb : limbs_) chains_.push_back(chain_of(limb, body.posture(), true));
 }
 
-TrunkMotion Holder::settle(const Decoded& decoded, const Anchors& anchors, const Load& load) const {
+Stance Holder::settle(const Decoded& decoded, const Anchors& anchors, const Load& load) const {
   Corners before;
   for (std::size_t i = 0; i < kLimbCount; ++i) before[i] = decoded.trunk[index(limbs_[i].root)];
   Corners now = before;
@@ -131,19 +131,22 @@ TrunkMotion Holder::settle(const Decoded& decoded, const Anchors& anchors, const
   }
   const RigidMotion motion = nearest_rigid_motion(before, now);
   const Vec3 waist = decoded.trunk[index(Joint::l5s1)];
-  return {motion(waist) - waist, rotation_vector(motion.rotation)};
+  return {motion(waist) - waist, rotation_vector(motion.rotation), limited_wrists(decoded, now, anchors)};
 }
 
-Posture Holder::hold(const Decoded& decoded, const TrunkMotion& trunk, const Anchors& anchors, const Load& load,
+Posture Holder::hold(const Decoded& decoded, const Stance& stance, const Anchors& anchors, const Load& load,
                      HoldReport& report) const {
   const Vec3 waist = decoded.trunk[index(Joint::l5s1)];
-  const RigidMotion motion{rotation_by(trunk.turn_rad), waist, waist + trunk.shift};
+  const RigidMotion motion{rotation_by(stance.turn_rad), waist, waist + stance.shift};
   Corners before, now;
   for (std::size_t i = 0; i < kLimbCount; ++i) {
     before[i] = decoded.trunk[index(limbs_[i].root)];
     now[i] = motion(before[i]);
   }
-  const Wrists wrists = limited_wrists(decoded, now, anchors);
+  Wrists wrists;
+  for (const std::size_t side : {0u, 1u}) {
+    wrists[side] = glm::normalize(stance.wrist_from_grip[side]) * glm::length(decoded.wrist_from_grip[side]);
+  }
   const Corners ends = limb_ends(wrists, anchors);
   bring_within_reach(before, now, ends, kMargin_m);
   measure_shortfall(now, ends, report);

@@ -11,7 +11,7 @@ constexpr int kTimes = 64;
 constexpr double kHalfShelf_m = 0.15;  // of a usual shelf's depth, beyond the box's own
 constexpr double kClearance_m = 0.02;
 constexpr double kOverEdge_m = 0.10;  // within this distance of its place the box sinks from the clearance to zero
-constexpr double kMostRise_m = 0.15;
+constexpr double kMostRise_m = 0.10;
 constexpr double kLeastBump = 0.25;  // nearer to its end a bump cannot raise the box without raising all of the path
 
 /// t^4 (1 - t)^2, scaled to a peak of 1 at t = 2/3.

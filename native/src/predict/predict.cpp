@@ -12,7 +12,7 @@
 #include "reachcast/posture/linkage.hpp"
 #include "reachcast/predict/approach.hpp"
 #include "reachcast/predict/blend.hpp"
-#include "reachcast/predict/trunk_track.hpp"
+#include "reachcast/predict/stance_track.hpp"
 
 namespace reachcast {
 namespace {
@@ -141,11 +141,11 @@ class Performance {
 
   /// The correction of the trunk, found at moments that do not depend on the frame rate. The hands' opening after the
   /// release is left out: it moves no trunk that can help it.
-  [[nodiscard]] TrunkTrack track(double frame_rate) const {
+  [[nodiscard]] StanceTrack track(double frame_rate) const {
     const double whole_s = static_cast<double>(events_.end) / frame_rate;
     const auto count = static_cast<std::size_t>(std::clamp(std::ceil(whole_s / kMoment_s), 8.0, 2000.0)) + 1;
     const double spacing_s = whole_s / static_cast<double>(count - 1);
-    std::vector<TrunkMotion> moments;
+    std::vector<Stance> moments;
     for (std::size_t i = 0; i < count; ++i) {
       const double moment = static_cast<double>(i) * spacing_s * frame_rate;
       const Anchors anchors = anchors_at(moment, 0.0);
@@ -154,9 +154,9 @@ class Performance {
     return {moments, spacing_s};
   }
 
-  [[nodiscard]] Posture posture(double moment, const TrunkMotion& trunk, double opening_m, HoldReport& report) const {
+  [[nodiscard]] Posture posture(double moment, const Stance& stance, double opening_m, HoldReport& report) const {
     const Anchors anchors = anchors_at(moment, opening_m * eased(events_.release, events_.end, moment));
-    return holder_.hold(decoded_at(moment, anchors), trunk, anchors, load_at(moment), report);
+    return holder_.hold(decoded_at(moment, anchors), stance, anchors, load_at(moment), report);
   }
 
  private:
@@ -214,7 +214,7 @@ std::optional<Failure> perform(const Performance& performance, double frame_rate
   motion.box.clear();
   motion.postures.clear();
   motion.times_s.clear();
-  const TrunkTrack track = performance.track(frame_rate);
+  const StanceTrack track = performance.track(frame_rate);
   const auto end_s = static_cast<double>(motion.events.end) / frame_rate;
   HoldReport opened;
   (void)performance.posture(static_cast<double>(motion.events.end), track.at(end_s), kOpening_m, opened);

@@ -15,10 +15,11 @@
 
 namespace reachcast {
 
-/// How a decoded trunk is moved: turned about its l5s1, then shifted.
-struct TrunkMotion {
-  Vec3 shift{0.0};     ///< metres
-  Vec3 turn_rad{0.0};  ///< axis times angle
+/// How a decoded posture is corrected: its trunk turned about its l5s1 and then shifted, its hands turned at the grips.
+struct Stance {
+  Vec3 shift{0.0};                        ///< metres
+  Vec3 turn_rad{0.0};                     ///< axis times angle
+  std::array<Vec3, 2> wrist_from_grip{};  ///< left, right; only their directions count
 };
 
 /// What was changed, and what could not be.
@@ -36,13 +37,13 @@ class Holder {
   /// body_mass_kg > 0.
   Holder(const Linkage& linkage, const Body& body, double body_mass_kg);
 
-  /// The motion that brings this trunk to where limbs and weight want it, with 8 mm to spare in the limbs.
-  [[nodiscard]] TrunkMotion settle(const Decoded& decoded, const Anchors& anchors, const Load& load) const;
+  /// The stance that limbs, wrists and weight want, with 8 mm to spare in the limbs.
+  [[nodiscard]] Stance settle(const Decoded& decoded, const Anchors& anchors, const Load& load) const;
 
-  /// The posture with its trunk moved so, and balls, ankles and grips exactly at their anchors; what the motion leaves
+  /// The posture so corrected, with balls, ankles and grips exactly at their anchors; what the stance leaves
   /// out of reach is made up by a last move of the trunk. Where report.shortfall_m > 0 the limbs stop short of their
   /// anchors. Links keep their lengths in either case.
-  [[nodiscard]] Posture hold(const Decoded& decoded, const TrunkMotion& trunk, const Anchors& anchors, const Load& load,
+  [[nodiscard]] Posture hold(const Decoded& decoded, const Stance& stance, const Anchors& anchors, const Load& load,
                              HoldReport& report) const;
 
   /// Both at once, for a single posture.

@@ -9,7 +9,7 @@
 namespace reachcast {
 
 /// How far a path is raised at scaled time t: one smooth bump for each end, zero in value and slope at both ends of the
-/// path, together at most 0.15 m, which clears most edges and keeps the path that of a person.
+/// path, together at most 0.10 m, which clears most edges and keeps the path that of a person.
 class EdgeClearance {
  public:
   EdgeClearance() = default;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The correction of the trunk over time, smooth and independent of the frame rate.
+/// The correction of trunk and hands over time, smooth and independent of the frame rate.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,18 @@
 
 namespace reachcast {
 
-/// What Holder::settle says at evenly spaced moments, smoothed by a Gaussian of 0.08 s and joined by cubics: neither
+/// What Holder::settle says at evenly spaced moments, smoothed by a Gaussian of 0.10 s and joined by cubics: neither
 /// position nor speed jumps, whatever the frames between the moments.
-class TrunkTrack {
+class StanceTrack {
  public:
   /// `moments`: at least 2, the first at time 0; spacing_s > 0.
-  TrunkTrack(const std::vector<TrunkMotion>& moments, double spacing_s);
+  StanceTrack(const std::vector<Stance>& moments, double spacing_s);
 
   /// time_s is clamped to the track's ends.
-  [[nodiscard]] TrunkMotion at(double time_s) const;
+  [[nodiscard]] Stance at(double time_s) const;
 
  private:
-  std::vector<TrunkMotion> smooth_;
+  std::vector<Stance> smooth_;
   double spacing_s_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reachcast/predict/trunk_track.hpp"
+#include "reachcast/predict/stance_track.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,33 +7,35 @@
 namespace reachcast {
 namespace {
 
-constexpr double kSmoothing_s = 0.08;
+constexpr double kSmoothing_s = 0.10;
 
-TrunkMotion scaled(const TrunkMotion& m, double by) {
-  return {m.shift * by, m.turn_rad * by};
-}
-TrunkMotion sum(const TrunkMotion& a, const TrunkMotion& b) {
-  return {a.shift + b.shift, a.turn_rad + b.turn_rad};
+void add(Stance& sum, const Stance& m, double weight) {
+  sum.shift += weight * m.shift;
+  sum.turn_rad += weight * m.turn_rad;
+  for (const std::size_t side : {0u, 1u}) sum.wrist_from_grip[side] += weight * m.wrist_from_grip[side];
 }
 
 }  // namespace
 
-TrunkTrack::TrunkTrack(const std::vector<TrunkMotion>& moments, double spacing_s) : spacing_s_(spacing_s) {
+StanceTrack::StanceTrack(const std::vector<Stance>& moments, double spacing_s) : spacing_s_(spacing_s) {
   const auto count = static_cast<long>(moments.size());
   const long width = std::lround(std::ceil(3.0 * kSmoothing_s / spacing_s));
+  const auto weight_of = [&](long k) {
+    const double away = static_cast<double>(k) * spacing_s / kSmoothing_s;
+    return std::exp(-0.5 * away * away);
+  };
   for (long i = 0; i < count; ++i) {
-    TrunkMotion mean;
+    Stance mean;
     double whole = 0.0;
+    for (long k = -width; k <= width; ++k) whole += weight_of(k);
     for (long k = -width; k <= width; ++k) {
-      const double away = static_cast<double>(k) * spacing_s / kSmoothing_s, weight = std::exp(-0.5 * away * away);
-      mean = sum(mean, scaled(moments[static_cast<std::size_t>(std::clamp(i + k, 0L, count - 1))], weight));
-      whole += weight;
+      add(mean, moments[static_cast<std::size_t>(std::clamp(i + k, 0L, count - 1))], weight_of(k) / whole);
     }
-    smooth_.push_back(scaled(mean, 1.0 / whole));
+    smooth_.push_back(mean);
   }
 }
 
-TrunkMotion TrunkTrack::at(double time_s) const {
+Stance StanceTrack::at(double time_s) const {
   const auto last = static_cast<long>(smooth_.size()) - 1;
   const double place = std::clamp(time_s / spacing_s_, 0.0, static_cast<double>(last));
   const long before = std::min(static_cast<long>(place), last - 1);
@@ -42,8 +44,8 @@ TrunkMotion TrunkTrack::at(double time_s) const {
   // Catmull-Rom weights of the four nodes around the moment.
   const std::array<double, 4> weights{0.5 * t * (-1.0 + t * (2.0 - t)), 1.0 + 0.5 * t * t * (3.0 * t - 5.0),
                                       0.5 * t * (1.0 + t * (4.0 - 3.0 * t)), 0.5 * t * t * (t - 1.0)};
-  TrunkMotion out;
-  for (long k = 0; k < 4; ++k) out = sum(out, scaled(node(before - 1 + k), weights[static_cast<std::size_t>(k)]));
+  Stance out;
+  for (long k = 0; k < 4; ++k) add(out, node(before - 1 + k), weights[static_cast<std::size_t>(k)]);
   return out;
 }
 
