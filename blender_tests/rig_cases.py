@@ -39,7 +39,7 @@ RIGS: dict[str, Callable[[], bpy.types.Object]] = {"mannequin": mannequin, "meta
 def set_rest_arms(rig: bpy.types.Object, degrees_from_hanging: float) -> None:
     """Makes the arms' rest straight, `degrees_from_hanging` out from the body: 90 is a T pose, 45 an A pose."""
     angle = math.radians(degrees_from_hanging)
-    _edit(rig, lambda bones: [_straighten(bones, side, Vector((sign * math.sin(angle), 0.0, -math.cos(angle))))
+    edit_bones(rig, lambda bones: [_straighten(bones, side, Vector((sign * math.sin(angle), 0.0, -math.cos(angle))))
                               for side, sign in (("L", 1.0), ("R", -1.0))])
 
 
@@ -48,20 +48,26 @@ def set_rolls(rig: bpy.types.Object, rolls: np.ndarray) -> None:
     def change(bones: bpy.types.ArmatureEditBones) -> None:
         for index, bone in enumerate(bones):
             bone.roll += float(rolls[index % len(rolls)])
-    _edit(rig, change)
+    edit_bones(rig, change)
 
 
 def _straighten(bones: bpy.types.ArmatureEditBones, side: str, along: Vector) -> None:
     for name in ("upper_arm", "forearm", "hand"):
-        bone = bones[f"{name}.{side}"]
-        shift = bone.head + along * bone.length - bone.tail
-        bone.tail += shift
-        for child in bone.children_recursive:
+        move_tail(bones[f"{name}.{side}"], along * bones[f"{name}.{side}"].length)
+
+
+def move_tail(bone: bpy.types.EditBone, along: Vector) -> None:
+    """Gives a bone another direction and length; what hangs on it goes along unchanged."""
+    shift = bone.head + along - bone.tail
+    bone.tail += shift
+    for child in bone.children_recursive:
+        if not child.use_connect:  # else Blender has moved it with its parent's tail
             child.head += shift
-            child.tail += shift
+        child.tail += shift
 
 
-def _edit(rig: bpy.types.Object, change: Callable[[bpy.types.ArmatureEditBones], object]) -> None:
+def edit_bones(rig: bpy.types.Object, change: Callable[[bpy.types.ArmatureEditBones], object]) -> None:
+    """Changes a rig's rest pose in Edit Mode."""
     bpy.context.view_layer.objects.active = rig
     bpy.ops.object.mode_set(mode="EDIT")
     change(rig.data.edit_bones)

@@ -94,7 +94,10 @@ class Bad(unittest.TestCase):
         with self.assertRaises(RuntimeError) as caught:  # what a report of an error, or a poll, is to a script
             bpy.ops.reachcast.predict_motion()
         said = str(caught.exception).strip().removeprefix("Error: ")
-        self.assert_sentence(said.removeprefix("Operator bpy.ops.reachcast.predict_motion.poll() "), words)
+        button = said.removeprefix("Operator bpy.ops.reachcast.predict_motion.poll() ")
+        self.assert_sentence(button, words)
+        if button == said:  # it ran, so the panel repeats what it reported
+            self.assertEqual(bpy.context.window_manager.reachcast_problem, said)
         self.assertEqual(state(), before, "the button changed the scene")
 
     def assert_sentence(self, text: str, words: tuple[str, ...]) -> None:
@@ -219,6 +222,15 @@ class Corpora(Bad):
         for share in (0.02, 0.3, 0.9):
             cut = self.file("cut.sqlite", whole[:int(share * len(whole))])
             self.refused("cut.sqlite", corpus=cut, name=f"{share:.0%} of the file")
+        self.refused("cut.sqlite", "damaged", corpus=self.file("cut.sqlite", whole[:20_000]), name="20,000 bytes")
+
+    def test_a_corpus_that_has_lost_its_motions_contents(self) -> None:
+        path = self.file("hollow.sqlite")
+        shutil.copyfile(self.corpus, path)
+        with sqlite3.connect(path) as database:
+            database.execute("DELETE FROM coefficients")
+        database.close()
+        self.refused("hollow.sqlite", "damaged", "coefficients", corpus=path)
 
 
 class Undo(Bad):
