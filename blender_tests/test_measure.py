@@ -87,7 +87,7 @@ class Elbows(unittest.TestCase):
                 wrong = mirrored_through(joints, word, ("shoulder", "elbow", "wrist"))
                 self.assertGreaterEqual(right_way.min(), 0.0)
                 np.testing.assert_allclose(elbow_flexion(of_joints(wrong), side), -right_way, atol=1e-6)
-                followed = posed_joints(skeleton, retarget(skeleton, wrong))  # the rig's own hinge follows, and hides it
+                followed = posed_joints(skeleton, retarget(skeleton, wrong))  # the bones' own hinges follow
                 self.assertLess(elbow_flexion(of_joints(followed), side).min(), -LEAST_BEND_DEG)
 
 

@@ -17,7 +17,7 @@ from reachcast.rigs.retarget import EXACT_JOINTS, posed_joints, retarget
 from reachcast.scene.measure import (Samples, forearm_twists, elbow_flexion, fastest_joint, knee_flexion, sample)
 from reachcast.scene.read_rig import read_rig
 from reachcast.scene.write_motion import write_rig_action
-from rig_cases import RIGS, mannequin, metarig, random_motion, set_rest_arms, set_rolls
+from rig_cases import RIGS, mannequin, random_motion, set_rest_arms, set_rolls
 
 #: Metres. Keys and Blender's own pose are single precision; errors add up over nine bones.
 JOINT_TOLERANCE = 1e-5

@@ -18,7 +18,7 @@ from .transforms import layer_of
 
 #: A limb straighter than this has no side to which it bends.
 LEAST_BEND_DEG = 3.0
-#: Middle of an elbow's swivel outwards from a relaxed arm's: the median of the recorded lifts, whose range is -10 to 81.
+#: Middle of an elbow's swivel, outwards from a relaxed one: the median of the recorded lifts, whose range is -10 to 81.
 #: Half a turn about it is natural, so an elbow that is mirrored through its arm's line never is.
 NATURAL_SWIVEL_DEG = 30.0
 #: Sine of the angle between an arm and the line of the shoulders below which a relaxed elbow has no direction.

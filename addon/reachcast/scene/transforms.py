@@ -64,8 +64,8 @@ def _world(item: bpy.types.Object, graph: bpy.types.Depsgraph) -> Matrix:
 
 
 def above_matrix(item: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> Array:
-    """(4, 4): world = above @ the object's own location, rotation and scale."""
-    return world_matrix(item, layer) @ np.linalg.pinv(np.array(item.matrix_basis, dtype=float))
+    """(4, 4): world = above @ the object's own location, rotation and scale, which `placement` has not refused."""
+    return world_matrix(item, layer) @ np.linalg.inv(np.array(item.matrix_basis, dtype=float))
 
 
 def placement(item: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> Placement:
