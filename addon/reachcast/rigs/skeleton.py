@@ -21,8 +21,7 @@ _SOLE = 0.05
 #: (forward, up) of a person who stands and looks ahead, as parts of the height; as native/src/body has them.
 _C7T1_TO_TRAGION, _TRAGION_TO_NASION = (0.034, 0.074), (0.054, 0.008)
 _HALF_HAND = 0.25          #: from grip to the front of the hand, as a part of wrist to grip; as native/src/body has it
-_LEAST_TRIANGLE = 0.002    #: height of the flattest triangle of joints that still shows a turn, as a part of the height
-_LEAST_FORWARD = -0.1      #: forward part of a foot's direction; feet that point straight down are no mistake
+_LEAST_TRIANGLE = 0.004    #: height of the flattest triangle of joints that still shows a turn, as a part of the height
 
 
 @dataclass(frozen=True)
@@ -197,9 +196,9 @@ def _check_sides(name: str, bone_map: BoneMap, joints: Array, axes: Array) -> No
         return f"'{bone_map.segments[f'{segment}.L']}' and '{bone_map.segments[f'{segment}.R']}'"
 
     feet = [normalise(joints[INDEX[f"{word}_ball"]] - joints[INDEX[f"{word}_ankle"]]) @ axes[1] for _, word in SIDES]
-    if min(feet) < _LEAST_FORWARD:
-        raise ValueError(f"Rig '{name}': seen from the hips, {bones('foot')} point backwards; {bones('thigh')} look "
-                         f"exchanged, left with right")
+    if min(feet) <= 0.0:
+        raise ValueError(f"Rig '{name}': seen from the hips, {bones('foot')} do not both point forward; "
+                         f"{bones('thigh')} look exchanged, left with right")
     for joint, segment in (("clavicle", "clavicle"), ("shoulder", "upper_arm")):
         if (joints[INDEX[f"right_{joint}"]] - joints[INDEX[f"left_{joint}"]]) @ axes[0] <= 0.0:
             raise ValueError(f"Rig '{name}': {bones(segment)} lie on the other sides than {bones('thigh')}; they look "
