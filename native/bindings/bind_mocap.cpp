@@ -64,7 +64,8 @@ Clip make_clip(const std::vector<std::string>& names,
     throw std::invalid_argument("positions must have the shape (frames, " + std::to_string(names.size()) +
                                 ", 3), one joint per name");
   }
-  if (!(rate_hz > 0.0)) throw std::invalid_argument("rate must be over 0 Hz, not " + std::to_string(rate_hz));
+  if (!(rate_hz > 0.0 && rate_hz <= 1e5))
+    throw std::invalid_argument("rate must be over 0 and at most 100000 Hz, not " + std::to_string(rate_hz));
   Clip clip{source, rate_hz, names, std::vector<bool>(names.size(), false), {}, {}};
   const double* value = positions.data();
   for (py::ssize_t i = 0; i < positions.shape(0) * positions.shape(1); ++i, value += 3) {
@@ -95,14 +96,17 @@ JointMap joint_map(const py::object& map) {
   }
   JointMap result{"given", {}};
   const py::object pairs = py::isinstance<py::dict>(map) ? map.attr("items")() : map;
-  for (const py::handle pair : pairs) {
-    const auto [joint_name, points] = pair.cast<std::pair<std::string, py::object>>();
-    const std::optional<Joint> joint = reachcast::find_joint(joint_name);
-    if (!joint) throw std::invalid_argument("map: '" + joint_name + "' is not a canonical joint");
-    const bool is_single = py::isinstance<py::str>(points);
-    result.sources.emplace_back(*joint, is_single ? std::vector<std::string>{points.cast<std::string>()}
-                                                  : points.cast<std::vector<std::string>>());
-  }
+  for (const py::handle pair : pairs) try {
+      const auto [joint_name, points] = pair.cast<std::pair<std::string, py::object>>();
+      const std::optional<Joint> joint = reachcast::find_joint(joint_name);
+      if (!joint) throw std::invalid_argument("map: '" + joint_name + "' is not a canonical joint");
+      const bool is_single = py::isinstance<py::str>(points);
+      result.sources.emplace_back(*joint, is_single ? std::vector<std::string>{points.cast<std::string>()}
+                                                    : points.cast<std::vector<std::string>>());
+    } catch (const py::cast_error&) {
+      throw std::invalid_argument("map: each entry is a canonical joint and the name or names of its points; found " +
+                                  py::repr(pair).cast<std::string>());
+    }
   return result;
 }
 

@@ -44,7 +44,8 @@ py::array_t<double> encode(const Chain& chain, const DoubleArray& points) {
         throw std::invalid_argument(text.str());
       }
     }
-    chain.encode(one, {out.mutable_data(f, 0), chain.coordinate_count()});
+    chain.encode(
+        one, {out.mutable_data() + f * static_cast<py::ssize_t>(chain.coordinate_count()), chain.coordinate_count()});
   }
   return out;
 }
@@ -65,7 +66,9 @@ py::array_t<double> decode(const Chain& chain, const DoubleArray& start, const D
   Points one(chain.links() + 1);
   for (py::ssize_t f = 0; f < frames; ++f) {
     const auto frame = static_cast<std::size_t>(f);
-    chain.decode(from[frame], to[frame], {coordinates.data(f, 0), chain.coordinate_count()}, one);
+    chain.decode(
+        from[frame], to[frame],
+        {coordinates.data() + f * static_cast<py::ssize_t>(chain.coordinate_count()), chain.coordinate_count()}, one);
     for (std::size_t j = 0; j < one.size(); ++j) {
       for (int axis = 0; axis < 3; ++axis) out.mutable_at(f, static_cast<py::ssize_t>(j), axis) = one[j][axis];
     }

@@ -80,8 +80,10 @@ py::list cross_validation(const Corpus& corpus, const std::vector<py::dict>& sch
   std::vector<Scheme> wanted;
   for (const py::dict& scheme : schemes) {
     for (const auto& [key, value] : scheme) {
-      if (py::cast<std::string>(key) != "k")
-        throw std::invalid_argument("schemes: there is no setting named " + py::cast<std::string>(key));
+      if (!py::isinstance<py::str>(key) || key.cast<std::string>() != "k" || !py::isinstance<py::int_>(value)) {
+        throw std::invalid_argument("schemes: each is a dict like {'k': 5} with a whole number; found " +
+                                    py::repr(scheme).cast<std::string>());
+      }
     }
     wanted.push_back({.neighbours = scheme.contains("k") ? scheme["k"].cast<int>() : Scheme{}.neighbours});
   }

@@ -95,6 +95,36 @@ void check_stature(double stature_m) {
   }
 }
 
+void check_triangle(const Posture& posture, Joint a, Joint b, Joint apex) {
+  const Vec3 u = posture[index(b)] - posture[index(a)], v = posture[index(apex)] - posture[index(a)];
+  if (glm::length(glm::cross(u, v)) >= 0.01 * glm::length(u) * glm::length(v)) return;
+  fail("posture: " + std::string(joint_name(apex)) + " lies on the line from " + std::string(joint_name(a)) + " to " +
+       std::string(joint_name(b)) + "; it must stand off it");
+}
+
+/// Upright on the origin, facing forward, left on the left.
+void check_stand(const Posture& posture, double stature_m) {
+  using enum Joint;
+  const auto at = [&](Joint j) { return posture[index(j)]; };
+  check_triangle(posture, left_hip, right_hip, l5s1);
+  check_triangle(posture, l5s1, right_clavicle, c7t1);
+  check_triangle(posture, l5s1, left_clavicle, c7t1);
+  const Vec3 feet = 0.5 * (at(left_ankle) + at(right_ankle));
+  if (std::hypot(feet.x, feet.y) > 0.05 * stature_m) {
+    fail("posture: the ankles stand " + number(std::hypot(feet.x, feet.y)) +
+         " m from the origin; it lies between them");
+  }
+  if (at(right_hip).x <= at(left_hip).x) fail("posture: right_hip is left of left_hip; x runs to the right");
+  if (at(c7t1).z <= at(l5s1).z) fail("posture: c7t1 is below l5s1; z runs up");
+  for (const bool left : {true, false}) {
+    const Joint ball = left ? left_ball : right_ball, ankle = left ? left_ankle : right_ankle;
+    if (at(ball).y <= at(ankle).y) {
+      fail("posture: " + std::string(joint_name(ball)) + " is behind " + std::string(joint_name(ankle)) +
+           "; y runs forward");
+    }
+  }
+}
+
 /// A point of the trunk keeps its place relative to the old trunk axis, scaled by the change of the trunk's length.
 Posture rebuilt(const Posture& old, const std::map<std::string_view, double>& lengths) {
   Posture fresh = old;
@@ -171,8 +201,9 @@ Body Body::from_stature(double stature_m, std::optional<Sex> sex) {
 }
 
 Body Body::from_posture(const Posture& posture, double stature_m) {
-  if (!(stature_m > 0.0) || !std::isfinite(stature_m))
-    fail("stature is " + number(stature_m) + " m; it must be positive");
+  if (!(stature_m >= 0.5 && stature_m <= 2.6)) {
+    fail("stature is " + number(stature_m) + " m; it must lie between 0.5 and 2.6 m");
+  }
   for (std::size_t j = 0; j < kJointCount; ++j) {
     if (!is_finite(posture[j])) fail("posture: joint " + std::string(joint_names()[j]) + " is not finite");
   }
@@ -188,6 +219,7 @@ Body Body::from_posture(const Posture& posture, double stature_m) {
     check(s.name, s.inner, s.outer);
     if (s.paired) check(s.name, mirrored(s.inner), mirrored(s.outer));
   }
+  check_stand(posture, stature_m);
   return body;
 }
 

@@ -31,6 +31,7 @@ void check_range(const Clip& clip, std::size_t first, std::size_t last, std::siz
     fail(clip.source, ": the clip is not in the canonical joints; convert it first");
   }
   if (!(clip.rate_hz > 0.0)) fail(clip.source, ": the rate must be over 0 Hz, not ", clip.rate_hz);
+  if (clip.frames() == 0) fail(clip.source, ": the clip holds no frames");
   if (first > last || last >= clip.frames()) {
     fail(clip.source, ": frames ", first, " to ", last, " do not lie within 0 to ", clip.frames() - 1);
   }

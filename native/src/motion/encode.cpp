@@ -16,8 +16,9 @@ constexpr Eigen::Index kPathLength = 4 * kPathBasisCount;
 void check(const Reach& reach) {
   const auto fail = [&](const std::string& what) { throw std::invalid_argument(reach.origin + ": " + what); };
   if (reach.frames() < 4) fail("the reach has " + std::to_string(reach.frames()) + " postures; at least 4 are needed");
-  if (!(reach.duration_s > 0.0))
-    fail("the duration is " + std::to_string(reach.duration_s) + " s; it must be positive");
+  if (!(reach.duration_s >= 0.05 && reach.duration_s <= 60.0)) {
+    fail("the duration is " + std::to_string(reach.duration_s) + " s; it must lie between 0.05 and 60 s");
+  }
   for (std::size_t f = 0; f < reach.frames(); ++f) {
     for (std::size_t j = 0; j < kJointCount; ++j) {
       if (!is_finite(reach.postures[f][j])) {

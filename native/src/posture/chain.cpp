@@ -33,9 +33,11 @@ Vec3 any_perpendicular(const Vec3& axis) {
 
 /// 2004 paper p. 543: three numbers, projected back orthogonal to the axis and normalised.
 Vec3 usable_normal(const Vec3& stored, const Vec3& axis) {
-  const Vec3 flat = stored - glm::dot(stored, axis) * axis;
+  const double largest = std::max({std::abs(stored.x), std::abs(stored.y), std::abs(stored.z)});
+  const Vec3 scaled = largest > 1e-12 ? stored / largest : Vec3(0.0);  // its square neither overflows nor vanishes
+  const Vec3 flat = scaled - glm::dot(scaled, axis) * axis;
   const double size = glm::length(flat);
-  return size > 1e-12 ? flat / size : any_perpendicular(axis);
+  return size > 1e-9 ? flat / size : any_perpendicular(axis);
 }
 
 /// Reach of two single links under a hinge limit, by the law of cosines.
@@ -50,8 +52,8 @@ Interval hinge_reach(double a, double b, const FlexionLimit& limit) {
 void check_arguments(const std::vector<double>& lengths, const std::vector<std::size_t>& pivots) {
   if (lengths.empty()) fail("lengths is empty; a chain has at least one link");
   for (std::size_t i = 0; i < lengths.size(); ++i) {
-    if (!(lengths[i] > 0.0) || !std::isfinite(lengths[i])) {
-      fail("lengths[", i, "] is ", lengths[i], "; it must be positive and finite");
+    if (!(lengths[i] > 0.0 && lengths[i] <= 1e6)) {
+      fail("lengths[", i, "] is ", lengths[i], "; it must be positive and at most 1e6");
     }
   }
   std::set<std::size_t> seen;
@@ -109,13 +111,6 @@ int Chain::build(std::size_t first, std::size_t last, const std::vector<std::siz
   }
   nodes_[static_cast<std::size_t>(self)] = node;
   return self;
-}
-
-std::size_t Chain::normal_offset(std::size_t joint) const {
-  for (const Node& node : nodes_) {
-    if (node.pivot == joint) return node.offset + static_cast<std::size_t>(node.stretches);
-  }
-  fail("joint ", joint, " is no interior joint; they are 1 to ", lengths_.size() - 1);
 }
 
 void Chain::encode(std::span<const Vec3> points, std::span<double> coordinates) const {

@@ -4,9 +4,9 @@
 namespace reachcast {
 namespace {
 
-// How far people bend: elbow to 150 degrees (American Academy of Orthopaedic Surgeons, 1965), ten less with a load; knee to 135, with the
-// heels on the floor as deep as the recorded squats go. The lower bounds keep a bend in the limb: a straight limb has
-// no plane, and people do not lock elbows or knees under a load.
+// How far people bend: elbow to 150 degrees (American Academy of Orthopaedic Surgeons, 1965), ten less with a load;
+// knee to 135, with the heels on the floor as deep as the recorded squats go. The lower bounds keep a bend in the limb:
+// a straight limb has no plane, and people do not lock elbows or knees under a load.
 constexpr FlexionLimit kElbow{0.12, 2.45};
 constexpr FlexionLimit kKnee{0.07, 2.35};
 

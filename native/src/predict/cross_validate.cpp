@@ -15,7 +15,6 @@ namespace reachcast {
 namespace {
 
 constexpr int kTimes = 21;
-constexpr double kBodyMassIndex = 24.0;
 
 using Postures = std::vector<Posture>;
 using CoordinatesAt = std::function<Eigen::VectorXd(double)>;
@@ -23,9 +22,11 @@ using CoordinatesAt = std::function<Eigen::VectorXd(double)>;
 /// A level pair of grips at the recorded distance goes along the path; the body follows. Nothing where it cannot.
 std::optional<Postures> perform(const MotionSummary& motion, const EndpointPath& path,
                                 const CoordinatesAt& coordinates) {
+  if (motion.subject.stature_m < 1.2 || motion.subject.stature_m > 2.2)
+    return std::nullopt;  // no published proportions
   const Body body = Body::from_stature(motion.subject.stature_m, motion.subject.sex);
   const BodyLinkage linkage(two_handed_linkage(), body);
-  const Holder holder(two_handed_linkage(), body, kBodyMassIndex * motion.subject.stature_m * motion.subject.stature_m);
+  const Holder holder(two_handed_linkage(), body, usual_mass_kg(motion.subject.stature_m));
   const Vec3 half(0.5 * motion.grip_distance_m, 0.0, 0.0);
   Postures postures;
   for (int i = 0; i < kTimes; ++i) {

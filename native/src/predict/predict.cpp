@@ -17,13 +17,12 @@
 namespace reachcast {
 namespace {
 
-constexpr double kPause_s = 0.25;             // hands on the box before it leaves and after it stands
-constexpr double kAfter_s = 0.4;              // held pose after letting go
-constexpr double kMoment_s = 0.04;            // between the moments at which the trunk's correction is found
-constexpr double kUnbalanced_m = 0.02;        // weight this far beyond the feet is reported
-constexpr double kOpening_m = 0.03;           // how far each hand leaves the box
-constexpr double kAnticipation = 0.2;         // share of the transfer over which the body gets going and comes to rest
-constexpr double kUsualBodyMassIndex = 24.0;  // kg/m^2, where the subject's mass is not known
+constexpr double kPause_s = 0.25;       // hands on the box before it leaves and after it stands
+constexpr double kAfter_s = 0.4;        // held pose after letting go
+constexpr double kMoment_s = 0.04;      // between the moments at which the trunk's correction is found
+constexpr double kUnbalanced_m = 0.02;  // weight this far beyond the feet is reported
+constexpr double kOpening_m = 0.03;     // how far each hand leaves the box
+constexpr double kAnticipation = 0.2;   // share of the transfer over which the body gets going and comes to rest
 constexpr double kFarFromData_m = 0.25;
 constexpr double kStatureMargin_m = 0.03;
 
@@ -47,7 +46,7 @@ void check(const Subject& subject, const PredictOptions& options) {
 }
 
 double body_mass(const Subject& subject) {
-  return subject.mass_kg.value_or(kUsualBodyMassIndex * subject.stature_m * subject.stature_m);
+  return subject.mass_kg.value_or(usual_mass_kg(subject.stature_m));
 }
 
 Vec3 hold_point(const Box& box, const Vec3& place) {
@@ -252,6 +251,13 @@ Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task
   check(subject, options);
   const Query query{Phase::transfer, hold_point(task.object, task.home), hold_point(task.object, task.target),
                     subject.stature_m};
+  for (const auto& [name, place] : {std::pair{"home", task.home}, {"target", task.target}}) {
+    if (place.z < subject.stature_m && std::hypot(place.x, place.y) < 0.5 * task.object.depth_m) {
+      fail("the ", name, " is ", std::hypot(place.x, place.y),
+           " m from between the feet, inside the body; it must be at least ", 0.5 * task.object.depth_m,
+           " m away, half the depth of the box");
+    }
+  }
   if (glm::distance(query.home, query.target) < 0.01) {
     fail("home and target are ", glm::distance(query.home, query.target),
          " m apart; they must be at least 0.01 m apart");
@@ -263,6 +269,9 @@ Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task
   const Blend blend = blend_neighbours(summaries, query, options.neighbours,
                                        [&](std::int64_t id) { return corpus.load(std::span(&id, 1)).front().code; });
   motion.neighbours = blend.neighbours;
+  if (!(blend.whole.duration_s >= 0.05 && blend.whole.duration_s <= 60.0)) {
+    fail("the neighbours take ", blend.whole.duration_s, " s; a transfer takes 0.05 to 60 s");
+  }
   motion.events = schedule(options.duration_s.value_or(blend.whole.duration_s), options.frame_rate);
   motion.duration_s = static_cast<double>(motion.events.placed - motion.events.lift_off) / options.frame_rate;
   // Raising the path over an edge is a courtesy: a path that can only be held as it was learned stays as it was.

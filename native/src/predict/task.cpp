@@ -16,9 +16,11 @@ void require(bool good, const char* name, double value, const char* limit) {
 }
 
 void require_place(const char* name, const Vec3& at) {
-  if (is_finite(at)) return;
+  constexpr double kFarthest_m = 100.0, kLowest_m = -0.02;
+  if (is_finite(at) && glm::length(at) <= kFarthest_m && at.z >= kLowest_m) return;
   std::ostringstream out;
-  out << name << " is (" << at.x << ", " << at.y << ", " << at.z << "); it must be finite";
+  out << name << " is (" << at.x << ", " << at.y << ", " << at.z
+      << "); it must be finite, within 100 m of the feet and not below the floor";
   throw std::invalid_argument(out.str());
 }
 
@@ -32,17 +34,19 @@ Vec3 grip_of(const Box& box, const BoxPose& pose, bool left) {
 void check(const Task& task) {
   require_place("home", task.home);
   require_place("target", task.target);
-  if (!std::isfinite(task.home_yaw_rad)) throw std::invalid_argument("home_yaw is not finite");
-  if (!std::isfinite(task.target_yaw_rad)) throw std::invalid_argument("target_yaw is not finite");
+  for (const double yaw : {task.home_yaw_rad, task.target_yaw_rad}) {
+    if (!(std::abs(yaw) <= 1000.0))
+      throw std::invalid_argument("a yaw is " + std::to_string(yaw) + "; it must lie within 1000 radians");
+  }
   const Box& box = task.object;
-  require(box.width_m > 0.0 && std::isfinite(box.width_m), "width", box.width_m, "positive, metres");
-  require(box.depth_m > 0.0 && std::isfinite(box.depth_m), "depth", box.depth_m, "positive, metres");
-  require(box.height_m > 0.0 && std::isfinite(box.height_m), "height", box.height_m, "positive, metres");
+  require(box.width_m > 0.0 && box.width_m <= 3.0, "width", box.width_m, "positive and at most 3 m");
+  require(box.depth_m > 0.0 && box.depth_m <= 3.0, "depth", box.depth_m, "positive and at most 3 m");
+  require(box.height_m > 0.0 && box.height_m <= 3.0, "height", box.height_m, "positive and at most 3 m");
   require(box.handle_height_m >= 0.0 && box.handle_height_m <= box.height_m, "handle_height", box.handle_height_m,
           "between 0 and the height, metres");
   require(box.grip_distance_m >= 0.02 && box.grip_distance_m <= 2.0, "grip_distance", box.grip_distance_m,
           "between 0.02 and 2 m");
-  require(box.mass_kg >= 0.0 && std::isfinite(box.mass_kg), "mass", box.mass_kg, "zero or more, kilograms");
+  require(box.mass_kg >= 0.0 && box.mass_kg <= 200.0, "mass", box.mass_kg, "between 0 and 200 kg");
 }
 
 }  // namespace reachcast

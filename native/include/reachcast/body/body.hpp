@@ -28,8 +28,9 @@ class Body {
   /// body.cpp. `stature_m` in [1.2, 2.2]; without a sex the mean of the two. Throws std::invalid_argument.
   [[nodiscard]] static Body from_stature(double stature_m, std::optional<Sex> sex = std::nullopt);
 
-  /// A standing posture as measured, body frame. Every segment must be longer than 1 cm and every value finite, or
-  /// std::invalid_argument names the joint. Left and right may differ.
+  /// A standing posture as measured, body frame. Every value must be finite and every segment longer than 1 cm, the
+  /// person must stand upright on the origin and face forward, and pelvis and chest must be triangles; else
+  /// std::invalid_argument names the joint. Left and right may differ. `stature_m` in [0.5, 2.6].
   [[nodiscard]] static Body from_posture(const Posture& posture, double stature_m);
 
   /// The proportions of `stature_m` with some segments replaced: names of segment_names(), metres, both sides alike.
@@ -42,7 +43,7 @@ class Body {
   /// Distance of two joints in the reference posture: a segment length where both belong to one segment.
   [[nodiscard]] double distance(Joint a, Joint b) const { return glm::distance(at(a), at(b)); }
 
-  /// Lengths by segment name; left and right averaged.
+  /// Lengths by segment name; those of limbs are the mean of left and right.
   [[nodiscard]] std::map<std::string, double> lengths() const;
 
  private:

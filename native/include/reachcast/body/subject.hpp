@@ -9,7 +9,7 @@ namespace reachcast {
 enum class Sex { female, male };
 
 struct Subject {
-  double stature_m = 0.0;  ///< 0.5 to 2.6 where a body is built from it
+  double stature_m = 0.0;  ///< 0.5 to 2.6; published proportions go from 1.2 to 2.2
   std::optional<Sex> sex;
   std::optional<double> age_years;  ///< >= 0
   std::optional<double> mass_kg;    ///< > 0

@@ -11,7 +11,7 @@ namespace reachcast {
 [[nodiscard]] Eigen::Index code_length();
 
 /// Throws std::invalid_argument naming the origin of the reach when it has fewer than 4 postures, a value that is not
-/// finite, no positive duration, or a hold point that ends within 1 cm of where it began.
+/// finite, a duration outside 0.05 to 60 s, or a hold point that ends within 1 cm of where it began.
 [[nodiscard]] MotionCode encode_reach(const Reach& reach);
 
 /// The path of the hold point kept in a code.

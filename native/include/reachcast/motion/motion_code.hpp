@@ -20,7 +20,7 @@ struct MotionCode {
   Vec3 home{0.0};
   Vec3 target{0.0};
   double grip_distance_m = 0.0;  ///< between the grips at the start
-  Eigen::VectorXd coefficients;  ///< length kCodeLength, layout in motion_code.cpp
+  Eigen::VectorXd coefficients;  ///< length code_length(), layout in encode.cpp
 };
 
 }  // namespace reachcast

@@ -12,6 +12,11 @@ struct Load {
   double mass_kg = 0.0;  ///< >= 0
 };
 
+/// Where a subject's mass is not known: that of a body mass index of 24 kg/m^2.
+[[nodiscard]] inline double usual_mass_kg(double stature_m) {
+  return 24.0 * stature_m * stature_m;
+}
+
 /// Centre of mass of person and load. Segment masses and centres: Winter, Biomechanics and Motor Control (2009),
 /// table 4.1. body_mass_kg > 0.
 [[nodiscard]] Vec3 centre_of_mass(const Posture& posture, double body_mass_kg, const Load& load);

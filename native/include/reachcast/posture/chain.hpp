@@ -32,9 +32,10 @@ struct FlexionLimit {
 
 class Chain {
  public:
-  /// `lengths`: n >= 1 positive link lengths, metres. `pivots`: interior joints 1..n-1 in order of precedence; interior
-  /// joints not named follow in ascending order. `limits`: by interior joint, allowed where the joint's two
-  /// neighbours in its sub-chain are single links (there a limit is a bound on reach). Throws std::invalid_argument.
+  /// `lengths`: n >= 1 positive link lengths, metres, at most 1e6. `pivots`: interior joints 1..n-1 in order of
+  /// precedence; interior joints not named follow in ascending order. `limits`: by interior joint, allowed where the
+  /// joint's two neighbours in its sub-chain are single links (there a limit is a bound on reach). Throws
+  /// std::invalid_argument.
   Chain(std::vector<double> lengths, std::vector<std::size_t> pivots,
         const std::map<std::size_t, FlexionLimit>& limits = {});
 
@@ -42,9 +43,6 @@ class Chain {
   [[nodiscard]] std::size_t coordinate_count() const { return coordinate_count_; }
   [[nodiscard]] Interval reach() const { return root_reach_; }
   [[nodiscard]] const std::vector<double>& lengths() const { return lengths_; }
-
-  /// Offset, in the coordinates, of the three numbers of the normal of pivot `joint`.
-  [[nodiscard]] std::size_t normal_offset(std::size_t joint) const;
 
   /// points: n+1 joints, any frame. coordinates: coordinate_count() numbers, out. The points' links are taken as they
   /// are; where they differ from `lengths`, the q are clamped to what `lengths` allow.

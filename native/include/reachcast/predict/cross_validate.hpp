@@ -22,7 +22,8 @@ struct Scheme {
 struct SchemeError {
   Scheme scheme;
   std::size_t motions = 0;       ///< predicted
-  std::size_t out_of_reach = 0;  ///< not predicted: the body of that stature cannot hold the box where it was
+  std::size_t out_of_reach = 0;  ///< not predicted: a body of that stature cannot hold the box there, or has no
+                                 ///< published proportions
   double median_m = 0.0;         ///< over motions, of the mean over time and the paper's 23 joints of the distance
   double lower_quartile_m = 0.0, upper_quartile_m = 0.0;
 };

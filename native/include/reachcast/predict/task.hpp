@@ -14,7 +14,7 @@ struct Box {
   double height_m = 0.24;         ///< > 0
   double handle_height_m = 0.12;  ///< 0 to height_m
   double grip_distance_m = 0.40;  ///< between the grips; at least 0.02
-  double mass_kg = 5.0;           ///< >= 0
+  double mass_kg = 5.0;           ///< 0 to 200
 };
 
 struct Task {
