@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace reachcast {
 namespace {
@@ -34,9 +36,11 @@ Vec3 grip_of(const Box& box, const BoxPose& pose, bool left) {
 void check(const Task& task) {
   require_place("home", task.home);
   require_place("target", task.target);
-  for (const double yaw : {task.home_yaw_rad, task.target_yaw_rad}) {
-    if (!(std::abs(yaw) <= 1000.0))
-      throw std::invalid_argument("a yaw is " + std::to_string(yaw) + "; it must lie within 1000 radians");
+  for (const auto& [name, yaw] : {std::pair{"home_yaw", task.home_yaw_rad}, {"target_yaw", task.target_yaw_rad}}) {
+    if (!(std::abs(yaw) <= 1000.0)) {
+      throw std::invalid_argument(std::string(name) + " is " + std::to_string(yaw) +
+                                  "; it must lie within 1000 radians");
+    }
   }
   const Box& box = task.object;
   require(box.width_m > 0.0 && box.width_m <= 3.0, "width", box.width_m, "positive and at most 3 m");
