@@ -18,8 +18,8 @@ constexpr int kBalanceRounds = 12;
 constexpr double kMassThatMoves = 0.75;  // share of the weight that goes with the trunk when hands and feet stay
 
 // A wrist flexes and extends by some 70 to 80 degrees (American Academy of Orthopaedic Surgeons, 1965).
-constexpr double kFreeWrist_rad = 0.8;
-constexpr double kMostWrist_rad = 1.3;
+constexpr double kFreeWrist_rad = 0.7;
+constexpr double kMostWrist_rad = 1.1;  // smoothing over time may add some
 constexpr int kWristRounds = 4;
 
 using Corners = std::array<Vec3, 4>;  // roots of the limbs, or their ends
