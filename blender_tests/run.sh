@@ -56,7 +56,7 @@ count_last_line() {
     tail -n 20 "$LOGS/$part.log"
     failed=1
   fi
-  [ "$failed" -eq 0 ] || awk '/^(FAIL|ERROR)/ {on = 1} /^(ok|skip) / {on = 0} on' "$LOGS/$part.log" | head -n 200
+  [ "$failed" -eq 0 ] || awk '/^(FAIL|ERROR)/ {on = 1} /^(ok|skip) / {on = 0} on && ++shown <= 200' "$LOGS/$part.log"
   count "$part" "$passed" "$failed" "$skipped"
 }
 
@@ -96,7 +96,9 @@ PY
     broken "$part"
     return
   fi
-  [ "$status" -eq 0 ] || grep -E -A 12 '\*\*\*Failed|\[  FAILED|Failure$|ERROR: |runtime error' "$LOGS/$part.log" | head -n 200 || true
+  if [ "$status" -ne 0 ]; then
+    grep -E -m 20 -A 12 '\*\*\*Failed|Failure$|ERROR: |runtime error' "$LOGS/$part.log" || true
+  fi
   # shellcheck disable=SC2086
   count "$part" $totals
 }
@@ -156,7 +158,8 @@ lift_test() {
     return
   fi
   for rig in mannequin rigify; do
-    run "lift-$rig" bash examples/lift_to_shelf.sh --quick --rig "$rig" --out "$WORK/$rig" || tail -n 20 "$LOGS/lift-$rig.log"
+    run "lift-$rig" bash examples/lift_to_shelf.sh --quick --rig "$rig" --out "$WORK/$rig" \
+      || tail -n 20 "$LOGS/lift-$rig.log"
   done
   run lift-refused bash examples/lift_to_shelf.sh --quick --shelf 0 0.5 3 --out "$WORK/refused" || true
   run lift /usr/bin/python3 blender_tests/check_lift.py "$WORK" "$LOGS/lift-refused.log" || status=$?

@@ -39,15 +39,17 @@ class Moment:
 # ---------------------------------------------------------------- studio
 
 
-def add_studio(centre: Vector) -> None:
-    """Floor, background and light. `centre`: what the light is for, world metres."""
+def add_studio(centre: Vector, toward_left: bool) -> None:
+    """Floor, background and light. `centre`: what the light is for, world metres; the key comes from the camera's
+    side."""
+    side = 1.0 if toward_left else -1.0
     _set_world()
     _add_floor()
-    _add_light("Key Sun", "SUN", centre + Vector((-2.0, 2.0, 4.2)), centre, 3.2, size=math.radians(5.0), shadow=True,
-               colour=(1.0, 0.96, 0.90))
-    _add_light("Fill", "AREA", centre + Vector((2.5, 3.5, 1.5)), centre, 55.0, size=3.0, shadow=False,
+    _add_light("Key Sun", "SUN", centre + Vector((-2.0 * side, 2.0, 4.2)), centre, 3.2, size=math.radians(5.0),
+               shadow=True, colour=(1.0, 0.96, 0.90))
+    _add_light("Fill", "AREA", centre + Vector((2.5 * side, 3.5, 1.5)), centre, 55.0, size=3.0, shadow=False,
                colour=(0.85, 0.92, 1.0))
-    _add_light("Rim", "AREA", centre + Vector((1.2, -3.5, 2.6)), centre, 120.0, size=1.5, shadow=False,
+    _add_light("Rim", "AREA", centre + Vector((1.2 * side, -3.5, 2.6)), centre, 120.0, size=1.5, shadow=False,
                colour=(0.9, 0.95, 1.0))
 
 

@@ -241,8 +241,10 @@ def add_pallet(home: bpy.types.Object) -> bpy.types.Object:
     plank = min(0.022, 0.3 * top)
     beams = [Beam((-0.5 * width, y - 0.034, -plank), (0.5 * width, y + 0.034, 0.0))
              for y in (-0.166, -0.083, 0.0, 0.083, 0.166)]
-    beams += [Beam((x - 0.035, -0.5 * depth, plank - top), (x + 0.035, 0.5 * depth, -plank)) for x in (-0.245, 0, 0.245)]
-    beams += [Beam((-0.5 * width, y - 0.034, -top), (0.5 * width, y + 0.034, plank - top)) for y in (-0.166, 0.0, 0.166)]
+    beams += [Beam((x - 0.035, -0.5 * depth, plank - top), (x + 0.035, 0.5 * depth, -plank))
+              for x in (-0.245, 0.0, 0.245)]
+    beams += [Beam((-0.5 * width, y - 0.034, -top), (0.5 * width, y + 0.034, plank - top))
+              for y in (-0.166, 0.0, 0.166)]
     pallet = add_beams("Pallet", beams, (wood(),))
     pallet.location, pallet.rotation_euler.z = home.location, home.rotation_euler.z
     return pallet

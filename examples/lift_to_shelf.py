@@ -139,9 +139,10 @@ def furnish(stage: Stage, options: argparse.Namespace) -> None:
     seen = [stage.box, scenery.add_shelf_board(stage.shelf), scenery.add_pallet(stage.home),
             *(item for item in stage.worker.children if item.type == "MESH")]
     points = render.bounds_over(seen, range(scene.frame_start, scene.frame_end + 1, 3))
-    render.add_studio(Vector(points.min(axis=0) + points.max(axis=0)) / 2.0)
+    toward_left = options.x >= 0.0  # the shelf is not between the camera and the worker
+    render.add_studio(Vector(points.min(axis=0) + points.max(axis=0)) / 2.0, toward_left)
     render.set_render(options.quick)
-    render.add_camera(points, toward_left=options.x >= 0.0)
+    render.add_camera(points, toward_left)
     render.look_through_camera()
     scene.frame_set(scene.frame_start)
 

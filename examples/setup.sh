@@ -42,7 +42,7 @@ apt_quietly() {
 
 need_packages() {
   local name missing=()
-  command -v dpkg-query >/dev/null || fail "This is not Debian: install ${*} in your system's way, then build with cmake --preset release."
+  command -v dpkg-query >/dev/null || fail "This is not Debian, so these packages cannot be installed here: $*"
   for name in "$@"; do
     is_installed "$name" || missing+=("$name")
   done
