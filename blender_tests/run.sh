@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # All tests, native and in Blender. Ends in one line: N passed, N failed, N skipped. Logs stay in build/logs.
 #
-#     bash blender_tests/run.sh [PART...]      parts: native sanitized python blender window bench lift (all by default)
+#     bash blender_tests/run.sh [PART...]      parts: native sanitized python blender window lift (these by default), bench
 #
 # Recordings are looked for in $REACHCAST_MOCAP, else in ../shared/mocap beside the project; without them tests skip.
 set -euo pipefail
@@ -168,7 +168,7 @@ lift_test() {
 
 main() {
   local part parts=("$@")
-  [ ${#parts[@]} -gt 0 ] || parts=(native sanitized python blender window bench lift)
+  [ ${#parts[@]} -gt 0 ] || parts=(native sanitized python blender window lift)
   mkdir -p "$LOGS"
   WORK=$(mktemp -d)
   trap 'rm -rf "$WORK"' EXIT
