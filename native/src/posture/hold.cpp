@@ -15,6 +15,7 @@ constexpr int kReachRounds = 150;
 constexpr double kTurnStep = 0.25;  // share of the wanted turn taken in each round: a shift is preferred
 constexpr double kMostTurn_rad = 0.6;
 constexpr int kBalanceRounds = 12;
+constexpr double kFalling_m = 0.12;      // weight this far beyond the feet: nobody stands there
 constexpr double kMassThatMoves = 0.75;  // share of the weight that goes with the trunk when hands and feet stay
 
 // A wrist flexes and extends by some 70 to 80 degrees (American Academy of Orthopaedic Surgeons, 1965).
@@ -152,6 +153,12 @@ Posture Holder::hold(const Decoded& decoded, const Stance& stance, const Anchors
   measure_shortfall(now, ends, report);
   const Posture posture = spanned(decoded, before, now, wrists, anchors);
   report.unbalanced_m = glm::length(beyond_support(centre_of_mass(posture, body_mass_kg_, load), anchors));
+  if (report.shortfall_m == 0.0 && report.unbalanced_m > kFalling_m) {
+    // The limbs can hold on, the person cannot: so much nearer would the trunk have to be.
+    const auto stretch = [&](std::size_t arm) { return glm::distance(now[arm], ends[arm]) / chains_[arm].reach().hi; };
+    report.shortfall_m = (report.unbalanced_m - kFalling_m) / kMassThatMoves;
+    report.shortfall_from = limbs_[stretch(2) > stretch(3) ? 2 : 3].root;
+  }
   report.trunk_shift_m = glm::distance(waist, posture[index(Joint::l5s1)]);
   report.trunk_turn_rad = glm::length(rotation_vector(nearest_rigid_motion(before, now).rotation));
   return posture;

@@ -208,6 +208,16 @@ struct Failure {
   HoldReport report;
 };
 
+bool is_at_an_end(const Events& e, const Failure& failure) {
+  return failure.frame <= e.lift_off || failure.frame >= e.placed;
+}
+
+/// A home or a target that cannot be held comes before the way between them.
+bool is_worse(const Events& e, const Failure& a, const Failure& b) {
+  if (is_at_an_end(e, a) != is_at_an_end(e, b)) return is_at_an_end(e, a);
+  return a.report.shortfall_m > b.report.shortfall_m;
+}
+
 /// Fills in box, postures, times and corrections. Returns the worst failure, if any.
 std::optional<Failure> perform(const Performance& performance, double frame_rate, Motion& motion) {
   motion.box.clear();
@@ -226,7 +236,8 @@ std::optional<Failure> perform(const Performance& performance, double frame_rate
     motion.times_s.push_back(moment / frame_rate);
     motion.box.push_back(performance.box(moment));
     motion.postures.push_back(performance.posture(moment, track.at(motion.times_s.back()), opening_m, report));
-    if (report.shortfall_m > (worst ? worst->report.shortfall_m : 0.0)) worst = Failure{frame, report};
+    if (report.shortfall_m > 0.0 && (!worst || is_worse(motion.events, {frame, report}, *worst)))
+      worst = Failure{frame, report};
     trunk.amount_m = std::max(trunk.amount_m, report.trunk_shift_m);
     trunk.amount_rad = std::max(trunk.amount_rad, report.trunk_turn_rad);
     trunk.frames += report.trunk_shift_m > 1e-3 ? 1 : 0;
@@ -279,7 +290,7 @@ Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task
   for (const bool raised : {true, false}) {
     const Performance performance(blend, task, body, body_mass(subject), motion.events, raised);
     failure = perform(performance, options.frame_rate, motion);
-    if (!failure || (failure->frame <= motion.events.lift_off) || failure->frame >= motion.events.placed) break;
+    if (!failure || is_at_an_end(motion.events, *failure)) break;
   }
   if (failure) fail_out_of_reach(failure->report, motion.events, failure->frame, motion.box[failure->frame]);
   return motion;

@@ -28,7 +28,7 @@ struct HoldReport {
   double trunk_turn_rad = 0.0;  ///< how far the trunk turned
   double unbalanced_m = 0.0;    ///< how far the weight still lies beyond the feet
   double shortfall_m = 0.0;     ///< > 0: the anchors cannot be held; by so much the worse arm is too short or
-                                ///< too long with the feet on the floor
+                                ///< too long with the feet on the floor, or would be without falling over
   Joint shortfall_from = Joint::right_shoulder;  ///< root of that limb
 };
 
