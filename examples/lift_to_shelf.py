@@ -171,8 +171,8 @@ def summary(said: dict[str, Any], out: Path) -> str:
         f"{said['subject']['rig']} of {said['subject']['stature_m']:g} m carries {said['task']['box']['mass_kg']:g} kg "
         f"to {tuple(said['task']['shelf_m'])} m in {(frames['end'] - FIRST_FRAME) / FRAME_RATE:.1f} s",
         f"learned from {len(said['neighbours'])} recorded motions; {where}",
-        f"box lands {1000 * got['landing_m']:.3f} mm from the shelf's mark, hands within {1000 * got['held_m']:.3f} mm "
-        f"of their handles, left foot moves {1000 * got['left_foot_m']:.3f} mm",
+        f"box lands {1e6 * got['landing_m']:.1f} micrometres from the shelf's mark, hands keep within "
+        f"{1e6 * got['held_m']:.1f} of their handles, the left foot moves {1e6 * got['left_foot_m']:.1f}",
         *(f"corrected: {line}" for line in said["corrections"]),
         f"{', '.join(RESULTS)} are in {out}"))
 
