@@ -18,7 +18,7 @@ namespace reachcast {
 namespace {
 
 constexpr double kPause_s = 0.25;       // hands on the box before it leaves and after it stands
-constexpr double kAfter_s = 0.4;        // held pose after letting go
+constexpr double kAfter_s = 0.4;        // letting go
 constexpr double kMoment_s = 0.04;      // between the moments at which the trunk's correction is found
 constexpr double kUnbalanced_m = 0.02;  // weight this far beyond the feet is reported
 constexpr double kOpening_m = 0.03;     // how far each hand leaves the box
