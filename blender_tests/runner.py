@@ -53,7 +53,7 @@ class CleanSceneResult(unittest.TestResult):
                    err: tuple | None) -> None:  # type: ignore[type-arg]
         super().addSubTest(test, subtest, err)
         if err is not None:
-            self._line("FAIL", subtest, (self.failures + self.errors)[-1][1])
+            self._line("FAIL", subtest, self._exc_info_to_string(err, test))
 
     def _line(self, word: str, test: unittest.TestCase, note: str = "") -> None:
         seconds = time.perf_counter() - getattr(self, "_began", time.perf_counter())

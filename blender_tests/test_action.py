@@ -10,7 +10,7 @@ import fake_core
 import numpy as np
 from lift_cases import cuboid
 from mathutils import Euler, Matrix
-from reachcast.scene import predict_action
+from reachcast import corpora
 from reachcast.scene.action_writer import Channel, write_action
 from reachcast.scene.measure import sample
 from reachcast.scene.predict_action import EVENTS
@@ -218,7 +218,7 @@ class Refused(Scene):
         self.refused("The corpus must be a path", "5", corpus=5)
 
     def test_corpus(self) -> None:
-        if predict_action.default_corpus() is None:
+        if corpora.default_corpus() is None:
             self.refused("corpus", corpus=None)
 
     def test_actions_that_cannot_be_replaced(self) -> None:

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import bpy
 
 from . import native
+from .corpora import default_corpus
 from .rigs.bone_map import detect
-from .scene.predict_action import default_corpus
 
 #: The sentence of the last prediction that failed. On the WindowManager: neither saved nor undone.
 PROBLEM = bpy.props.StringProperty(name="Problem", options={"HIDDEN", "SKIP_SAVE"})

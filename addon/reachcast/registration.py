@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import panels, properties
+from . import corpora, panels, properties
 from .operators import add_mannequin, predict_motion
 
 CLASSES: tuple[type, ...] = (
@@ -31,3 +31,4 @@ def unregister() -> None:
     del bpy.types.Scene.reachcast
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)
+    corpora.close_all()

@@ -154,7 +154,9 @@ void bind_contents(py::class_<Corpus>& corpus) {
           "(same origin, mirrored and phase) stays as it is and yields its id.")
       .def("add_reaches", &add_reaches, "reaches"_a, py::kw_only(), "mirror"_a = true, ReleaseGil(),
            "Encodes and stores reaches and, with mirror, their mirror images after each; returns the ids.")
-      .def("motions", &Corpus::summaries, ReleaseGil(), "All motions in id order: list of MotionSummary.")
+      .def(
+          "motions", [](const Corpus& self) { return self.table()->motions(); }, ReleaseGil(),
+          "All motions in id order: list of MotionSummary.")
       .def("load", &load, "ids"_a, ReleaseGil(), "The MotionCodes of these ids, in their order.")
       .def_property_readonly("meta", py::cpp_function(&Corpus::meta, ReleaseGil()),
                              "dict of str: schema_version, created_by, kind, description, code_length and your own; "

@@ -5,6 +5,7 @@ It is also the only file that knows that an Action has slots and channel bags fr
 """
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -14,9 +15,16 @@ import numpy as np
 from ..rigs.rotations import Array
 
 
+#: Keys on every frame: straight between them; handles for who makes them curved later.
+_KEY_STYLE = (("interpolation", "LINEAR"), ("handle_left_type", "AUTO_CLAMPED"), ("handle_right_type", "AUTO_CLAMPED"))
+
+
 @dataclass(frozen=True)
 class Channel:
-    """One animated property. `values` is (frames, width); keys stand at `first_frame` + 0, 1, 2, ..."""
+    """One animated property. `values` is (frames, width); keys stand at `first_frame` + 0, 1, 2, ...
+
+    A column that never changes gets its first key only.
+    """
 
     data_path: str
     values: Array
@@ -33,12 +41,13 @@ def write_action(owner: bpy.types.Object, name: str, channels: Sequence[Channel]
     if replaced is not None and replaced.users == 0:
         replaced.use_fake_user = True
     curves, group_of = _curve_makers(owner, action)
-    interpolation, handle = _enum_value("interpolation", "LINEAR"), _enum_value("handle_left_type", "AUTO_CLAMPED")
     for channel in channels:
-        for index, values in enumerate(np.atleast_2d(channel.values.T)):
+        group = group_of(channel.group)
+        moves = np.any(channel.values != channel.values[0], axis=0)
+        for index, values in enumerate(np.asarray(channel.values, np.float32).T):
             curve = curves.new(channel.data_path, index=index)
-            curve.group = group_of(channel.group)
-            _fill(curve, first_frame, values, interpolation, handle)
+            curve.group = group
+            _fill(curve, first_frame, values if moves[index] else values[:1])
     return action
 
 
@@ -63,17 +72,15 @@ def curves_of(action: bpy.types.Action) -> Iterator[bpy.types.FCurve]:
     return (curve for bag in bags for curve in bag.fcurves if not curve.mute)
 
 
-def _fill(curve: bpy.types.FCurve, first_frame: int, values: Array, interpolation: int, handle: int) -> None:
-    count = len(values)
+def _fill(curve: bpy.types.FCurve, first_frame: int, values: Array) -> None:
     points = curve.keyframe_points
-    points.add(count)
-    places = np.empty(2 * count, dtype=np.float32)
-    places[0::2] = first_frame + np.arange(count)
-    places[1::2] = values
-    points.foreach_set("co", places)
-    points.foreach_set("interpolation", np.full(count, interpolation, dtype=np.int32))
-    points.foreach_set("handle_left_type", np.full(count, handle, dtype=np.int32))
-    points.foreach_set("handle_right_type", np.full(count, handle, dtype=np.int32))
+    points.add(len(values))
+    places = np.empty((len(values), 2), dtype=np.float32)
+    places[:, 0] = _frames(first_frame, len(values))
+    places[:, 1] = values
+    points.foreach_set("co", places.ravel())
+    for attribute, identifier in _KEY_STYLE:
+        points.foreach_set(attribute, _enum_values(attribute, identifier, len(values)))
     curve.update()
 
 
@@ -92,5 +99,12 @@ def _curve_makers(owner: bpy.types.Object, action: bpy.types.Action):  # type: i
     return bag.fcurves, group_of
 
 
-def _enum_value(attribute: str, identifier: str) -> int:
-    return bpy.types.Keyframe.bl_rna.properties[attribute].enum_items[identifier].value
+@functools.lru_cache(maxsize=8)
+def _frames(first_frame: int, count: int) -> Array:
+    return np.arange(first_frame, first_frame + count, dtype=np.float32)
+
+
+@functools.lru_cache(maxsize=8)
+def _enum_values(attribute: str, identifier: str, count: int) -> Array:
+    value = bpy.types.Keyframe.bl_rna.properties[attribute].enum_items[identifier].value
+    return np.full(count, value, dtype=np.int32)

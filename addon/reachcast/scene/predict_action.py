@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 
 from .. import native
+from ..corpora import default_corpus, opened_corpus
 from ..rigs.bone_map import BoneMap
 from ..rigs.joints import INDEX, JOINTS
 from ..rigs.retarget import EXACT_JOINTS, RigPose, posed_joints, retarget
@@ -27,7 +28,6 @@ from .transforms import above_matrix, layer_of, refuse_removed
 from .write_motion import box_world_places, write_box_action, write_rig_action
 
 EVENTS = ("grasp", "lift_off", "placed", "release", "end")
-DATA_FOLDER = Path(__file__).parents[1] / "data"
 #: How far the posed rig may be from the predicted joints. Single precision keys are a hundred times finer.
 MAX_MISFIT_M = 1e-3
 
@@ -57,11 +57,6 @@ class PredictionResult:
     outside_reasons: tuple[str, ...]
     corrections: tuple[str, ...]
     errors: Mapping[str, float]                           #: metres: landing, grip (while held), pose
-
-
-def default_corpus() -> Path | None:
-    """The corpus that ships with the add-on, when there is one."""
-    return next((path for path in sorted(DATA_FOLDER.glob("*")) if path.suffix in {".rcdb", ".sqlite", ".db"}), None)
 
 
 def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: object = None,
@@ -124,7 +119,7 @@ def _corpus(core: ModuleType, corpus: object) -> object:
         if corpus is None:
             raise ValueError("No corpus is given and none ships with this build of the add-on; choose a corpus file")
     if isinstance(corpus, (str, os.PathLike)):
-        return core.Corpus.open(bpy.path.abspath(os.fspath(corpus)))
+        return opened_corpus(core, bpy.path.abspath(os.fspath(corpus)))
     if not isinstance(corpus, core.Corpus):
         raise ValueError(f"The corpus must be a path or an opened corpus, not {corpus!r}")
     return corpus

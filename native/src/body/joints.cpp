@@ -28,14 +28,25 @@ std::optional<Joint> find_joint(std::string_view name) {
   return static_cast<Joint>(found - names.begin());
 }
 
+namespace {
+
+std::array<Joint, kJointCount> mirror_table() {
+  std::array<Joint, kJointCount> table{};
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    const auto joint = static_cast<Joint>(j);
+    const std::string name(joint_name(joint));
+    const bool is_left = name.starts_with("left_"), is_right = name.starts_with("right_");
+    const std::string other = is_left ? "right_" + name.substr(5) : is_right ? "left_" + name.substr(6) : name;
+    table[j] = find_joint(other).value_or(joint);
+  }
+  return table;
+}
+
+}  // namespace
+
 Joint mirrored(Joint joint) {
-  const std::string_view name = joint_name(joint);
-  const auto with_side = [&](std::string_view from, std::string_view to) {
-    return find_joint(std::string(to) + std::string(name.substr(from.size())));
-  };
-  if (name.starts_with("left_")) return with_side("left_", "right_").value_or(joint);
-  if (name.starts_with("right_")) return with_side("right_", "left_").value_or(joint);
-  return joint;
+  static const std::array<Joint, kJointCount> table = mirror_table();
+  return table[index(joint)];
 }
 
 }  // namespace reachcast

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <system_error>
+#include <unordered_map>
 #include <utility>
 
 #include "opening.hpp"
@@ -23,6 +24,14 @@ struct Corpus::State {
   fs::path path;
   std::unique_ptr<Connection> connection;  ///< empty once closed
   std::mutex mutex;                        ///< held by whoever uses the connection
+  std::shared_ptr<const MotionTable> table;
+  std::int64_t table_version = 0;  ///< PRAGMA data_version when the table was read
+  std::unordered_map<std::int64_t, std::shared_ptr<const MotionCode>> codes;
+
+  void forget() {
+    table.reset();
+    codes.clear();
+  }
 };
 
 namespace {
@@ -144,6 +153,7 @@ std::vector<std::int64_t> Corpus::add(std::span<const MotionCode> codes) {
       ids.push_back(writer.add(code));
     }
     transaction.commit();
+    state_->forget();  // data_version tells of others' changes only
     return ids;
   });
 }
@@ -168,15 +178,34 @@ std::vector<StoredMotion> Corpus::motions() const {
   });
 }
 
-std::vector<MotionSummary> Corpus::summaries() const {
+std::shared_ptr<const MotionTable> Corpus::table() const {
   const std::scoped_lock lock(state_->mutex);
   Connection& connection = require_open(state_->connection, state_->path);
   return reporting(state_->path, [&] {
+    const Transaction snapshot(connection, Transaction::Kind::read);
+    const std::int64_t version = connection.integer("PRAGMA data_version");
+    if (state_->table && state_->table_version == version) return state_->table;
+    state_->forget();
+    opening::require_corpus(connection, state_->path);  // the change may have been to a newer schema
     Statement row(connection, rows::select(false));
     std::vector<MotionSummary> motions;
     while (row.step()) motions.push_back(read_row(state_->path, [&] { return rows::read_summary(row); }));
-    return motions;
+    state_->table = std::make_shared<const MotionTable>(std::move(motions));
+    state_->table_version = version;
+    return state_->table;
   });
+}
+
+std::shared_ptr<const MotionCode> Corpus::code(std::int64_t id) const {
+  {
+    const std::scoped_lock lock(state_->mutex);
+    (void)require_open(state_->connection, state_->path);
+    if (const auto found = state_->codes.find(id); found != state_->codes.end()) return found->second;
+  }
+  auto code = std::make_shared<const MotionCode>(std::move(load(std::span(&id, 1)).front().code));
+  const std::scoped_lock lock(state_->mutex);
+  if (state_->codes.size() >= kRememberedCodes) state_->codes.clear();
+  return state_->codes.emplace(id, std::move(code)).first->second;
 }
 
 std::vector<StoredMotion> Corpus::load(std::span<const std::int64_t> ids) const {
@@ -236,6 +265,7 @@ bool Corpus::is_writable() const {
 void Corpus::close() {
   const std::scoped_lock lock(state_->mutex);
   state_->connection.reset();
+  state_->forget();
 }
 
 }  // namespace reachcast

@@ -62,6 +62,18 @@ void require_file(const fs::path& path) {
   }
 }
 
+/// A file that lost its end would otherwise read as zeros where the last page is cut.
+void require_whole_file(Connection& connection, const fs::path& path) {
+  const Transaction snapshot(connection, Transaction::Kind::read);
+  const std::int64_t expected = connection.integer("PRAGMA page_count") * connection.integer("PRAGMA page_size");
+  const auto size = static_cast<std::int64_t>(fs::file_size(path));
+  if (size >= expected) return;
+  throw std::runtime_error(quoted(path) + "is damaged: it has " + std::to_string(size) + " bytes, expected " +
+                           std::to_string(expected));
+}
+
+}  // namespace
+
 void require_corpus(Connection& connection, const fs::path& path) {
   const std::int64_t application = connection.integer("PRAGMA application_id");
   if (application != kCorpusApplicationId) {
@@ -78,18 +90,6 @@ void require_corpus(Connection& connection, const fs::path& path) {
                              ", expected at least 1");
   }
 }
-
-/// A file that lost its end would otherwise read as zeros where the last page is cut.
-void require_whole_file(Connection& connection, const fs::path& path) {
-  const Transaction snapshot(connection, Transaction::Kind::read);
-  const std::int64_t expected = connection.integer("PRAGMA page_count") * connection.integer("PRAGMA page_size");
-  const auto size = static_cast<std::int64_t>(fs::file_size(path));
-  if (size >= expected) return;
-  throw std::runtime_error(quoted(path) + "is damaged: it has " + std::to_string(size) + " bytes, expected " +
-                           std::to_string(expected));
-}
-
-}  // namespace
 
 std::unique_ptr<Connection> connect(const fs::path& path, bool for_writing) {
   // Absolute, because SQLite gives names such as ":memory:" a meaning of their own.

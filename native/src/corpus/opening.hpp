@@ -29,6 +29,9 @@ auto reporting(const std::filesystem::path& path, const Work& work) {
 /// Opens a corpus that exists, after checking that it is one that this program can read.
 [[nodiscard]] std::unique_ptr<sqlite::Connection> open_checked(const std::filesystem::path& path, bool for_writing);
 
+/// std::invalid_argument unless the file says that it is a corpus of a schema that this program can read.
+void require_corpus(sqlite::Connection& connection, const std::filesystem::path& path);
+
 /// Takes the name in the folder, or fails: of two programs that create the same corpus only one succeeds.
 void claim_file(const std::filesystem::path& path);
 

@@ -57,7 +57,8 @@ EndpointPath carried(const EndpointPath& path, const Vec3& from, const Vec3& to)
 }
 
 double progress(const EndpointPath& path, double t) {
-  const double whole = bspline_integral_row(1.0).segment<kPathBasisCount>(1).dot(path.velocity);
+  static const BasisRow all = bspline_integral_row(1.0);
+  const double whole = all.segment<kPathBasisCount>(1).dot(path.velocity);
   if (t <= 0.0 || whole <= 1e-9) return t <= 0.0 ? 0.0 : std::min(t, 1.0);
   if (t >= 1.0) return 1.0;
   return bspline_integral_row(t).segment<kPathBasisCount>(1).dot(path.velocity) / whole;

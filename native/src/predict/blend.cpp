@@ -9,24 +9,27 @@
 namespace reachcast {
 namespace {
 
-MotionCode mean_code(const std::vector<Neighbour>& neighbours, const Query& query,
-                     const std::function<MotionCode(std::int64_t)>& code_of) {
+MotionCode mean_code(const std::vector<Neighbour>& neighbours, const Query& query, const CodeOf& code_of) {
   MotionCode mean;
   mean.phase = query.phase;
   mean.home = query.home;
   mean.target = query.target;
   mean.coefficients = Eigen::VectorXd::Zero(code_length());
+  EndpointPath path{decltype(EndpointPath::velocity)::Zero(), decltype(EndpointPath::deviation)::Zero()};
   for (const Neighbour& neighbour : neighbours) {
-    MotionCode code = code_of(neighbour.id);
-    if (code.coefficients.size() != code_length()) {
+    const std::shared_ptr<const MotionCode> code = code_of(neighbour.id);
+    if (code->coefficients.size() != code_length()) {
       throw std::invalid_argument("motion " + std::to_string(neighbour.id) + " of the corpus has " +
-                                  std::to_string(code.coefficients.size()) + " coefficients; this version needs " +
+                                  std::to_string(code->coefficients.size()) + " coefficients; this version needs " +
                                   std::to_string(code_length()) + ": import the recordings again");
     }
-    set_path(code, carried(path_of(code), code.target - code.home, query.target - query.home));
-    mean.coefficients += neighbour.weight * code.coefficients;
-    mean.duration_s += neighbour.weight * code.duration_s;
+    mean.coefficients += neighbour.weight * code->coefficients;
+    mean.duration_s += neighbour.weight * code->duration_s;
+    const EndpointPath own = carried(path_of(*code), code->target - code->home, query.target - query.home);
+    path.velocity += neighbour.weight * own.velocity;
+    path.deviation += neighbour.weight * own.deviation;
   }
+  set_path(mean, path);
   return mean;
 }
 
@@ -51,10 +54,10 @@ std::vector<Neighbour> merged(const std::vector<Neighbour>& a, const std::vector
 
 }  // namespace
 
-Blend blend_neighbours(std::span<const MotionSummary> candidates, const Query& query, int k,
-                       const std::function<MotionCode(std::int64_t)>& code_of) {
-  const std::vector<Neighbour> at_home = nearest_motions(candidates, query, End::home, k);
-  const std::vector<Neighbour> at_target = nearest_motions(candidates, query, End::target, k);
+Blend blend_neighbours(const MotionTable& table, const Query& query, int k, const CodeOf& code_of,
+                       const LeftOut& left_out) {
+  const std::vector<Neighbour> at_home = nearest_motions(table, query, End::home, k, left_out);
+  const std::vector<Neighbour> at_target = nearest_motions(table, query, End::target, k, left_out);
   Blend blend;
   blend.neighbours = merged(at_home, at_target);
   blend.from = mean_code(at_home, query, code_of);

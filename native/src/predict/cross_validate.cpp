@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <map>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 
@@ -56,39 +56,29 @@ double quantile(const std::vector<double>& sorted, double q) {
   return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
-std::vector<MotionSummary> others(const std::vector<MotionSummary>& all, const MotionSummary& left_out,
-                                  LeaveOut leave_out) {
-  std::vector<MotionSummary> rest;
-  for (const MotionSummary& m : all) {
-    const bool same = leave_out == LeaveOut::motion ? m.origin == left_out.origin : m.subject_id == left_out.subject_id;
-    if (!same) rest.push_back(m);
-  }
-  return rest;
+bool is_left_out(const MotionSummary& motion, const MotionSummary& predicted, LeaveOut leave_out) {
+  return leave_out == LeaveOut::motion ? motion.origin == predicted.origin : motion.subject_id == predicted.subject_id;
 }
 
 }  // namespace
 
 std::vector<SchemeError> cross_validate(const Corpus& corpus, std::span<const Scheme> schemes, LeaveOut leave_out) {
-  std::vector<MotionSummary> all;
-  for (const MotionSummary& m : corpus.summaries()) {
-    if (m.phase == Phase::transfer) all.push_back(m);
-  }
-  std::map<std::int64_t, MotionCode> codes;
-  for (const StoredMotion& stored : corpus.motions()) codes.emplace(stored.id, stored.code);
+  const std::shared_ptr<const MotionTable> table = corpus.table();
+  const PhaseColumns& transfers = table->of(Phase::transfer);
+  const CodeOf code_of = [&](std::int64_t id) { return corpus.code(id); };
   std::vector<SchemeError> rows;
   for (const Scheme& scheme : schemes) {
     SchemeError row{.scheme = scheme};
     std::vector<double> errors;
-    for (const MotionSummary& motion : all) {
+    for (const std::uint32_t at : transfers.rows) {
+      const MotionSummary& motion = table->motions()[at];
       if (motion.is_mirrored) continue;
-      const std::vector<MotionSummary> rest = others(all, motion, leave_out);
-      if (rest.empty())
-        throw std::invalid_argument("leaving out " + motion.origin + " leaves no transfer to learn from");
-      const MotionCode& own = codes.at(motion.id);
+      const auto is_out = [&](const MotionSummary& other) { return is_left_out(other, motion, leave_out); };
       const Blend blend =
-          blend_neighbours(rest, {Phase::transfer, motion.home, motion.target, motion.subject.stature_m},
-                           scheme.neighbours, [&](std::int64_t id) { return codes.at(id); });
-      const auto truth = perform(motion, path_of(own), [&](double t) { return coordinates_at(own, t); });
+          blend_neighbours(*table, {Phase::transfer, motion.home, motion.target, motion.subject.stature_m},
+                           scheme.neighbours, code_of, is_out);
+      const std::shared_ptr<const MotionCode> own = code_of(motion.id);
+      const auto truth = perform(motion, path_of(*own), [&](double t) { return coordinates_at(*own, t); });
       const auto guess = perform(motion, path_of(blend.whole), [&](double t) { return coordinates_at(blend, t); });
       if (truth && guess) {
         errors.push_back(mean_distance(*truth, *guess));

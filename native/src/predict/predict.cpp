@@ -53,14 +53,12 @@ Vec3 hold_point(const Box& box, const Vec3& place) {
   return place + Vec3(0, 0, box.handle_height_m);
 }
 
-std::vector<std::string> why_outside(const std::vector<MotionSummary>& motions, const Query& query) {
-  double target = 1e9, home = 1e9, shortest = 1e9, tallest = 0.0;
-  for (const MotionSummary& m : motions) {
-    if (m.phase != query.phase) continue;
-    target = std::min(target, glm::distance(m.target, query.target));
-    home = std::min(home, glm::distance(m.home, query.home));
-    shortest = std::min(shortest, m.subject.stature_m);
-    tallest = std::max(tallest, m.subject.stature_m);
+/// `recorded` holds at least one motion.
+std::vector<std::string> why_outside(const PhaseColumns& recorded, const Query& query) {
+  double target = 1e9, home = 1e9;
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    target = std::min(target, glm::distance(recorded.target[i], query.target));
+    home = std::min(home, glm::distance(recorded.home[i], query.home));
   }
   std::vector<std::string> reasons;
   const auto add = [&](const auto&... parts) {
@@ -71,6 +69,7 @@ std::vector<std::string> why_outside(const std::vector<MotionSummary>& motions, 
   };
   if (target > kFarFromData_m) add("the nearest recorded target is ", target, " m away");
   if (home > kFarFromData_m) add("the nearest recorded home is ", home, " m away");
+  const double shortest = recorded.sorted_stature_m.front(), tallest = recorded.sorted_stature_m.back();
   if (query.stature_m < shortest - kStatureMargin_m || query.stature_m > tallest + kStatureMargin_m) {
     add("stature ", query.stature_m, " m lies outside the recorded ", shortest, " to ", tallest, " m");
   }
@@ -273,12 +272,12 @@ Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task
     fail("home and target are ", glm::distance(query.home, query.target),
          " m apart; they must be at least 0.01 m apart");
   }
-  const std::vector<MotionSummary> summaries = corpus.summaries();
-  if (summaries.empty()) fail("the corpus ", corpus.path().string(), " holds no motions; import some first");
+  const std::shared_ptr<const MotionTable> table = corpus.table();
+  if (table->motions().empty()) fail("the corpus ", corpus.path().string(), " holds no motions; import some first");
   Motion motion;
-  motion.outside_data = why_outside(summaries, query);
-  const Blend blend = blend_neighbours(summaries, query, options.neighbours,
-                                       [&](std::int64_t id) { return corpus.load(std::span(&id, 1)).front().code; });
+  const Blend blend =
+      blend_neighbours(*table, query, options.neighbours, [&](std::int64_t id) { return corpus.code(id); });
+  motion.outside_data = why_outside(table->of(query.phase), query);
   motion.neighbours = blend.neighbours;
   if (!(blend.whole.duration_s >= 0.05 && blend.whole.duration_s <= 60.0)) {
     fail("the neighbours take ", blend.whole.duration_s, " s; a transfer takes 0.05 to 60 s");

@@ -15,7 +15,7 @@ constexpr std::size_t kBatch = 25;
 /// What a reader may see: whole batches only, each motion complete.
 bool is_consistent(const Corpus& corpus) {
   const std::size_t count = corpus.motions().size();
-  return count % kBatch == 0 && corpus.summaries().size() >= count;
+  return count % kBatch == 0 && corpus.table()->motions().size() >= count;
 }
 
 void add_in_batches(const std::filesystem::path& path, std::span<const MotionCode> codes) {

@@ -20,32 +20,20 @@
 #include <string_view>
 #include <vector>
 
+#include "reachcast/corpus/motion_table.hpp"
 #include "reachcast/motion/motion_code.hpp"
 
 namespace reachcast {
 
 inline constexpr int kCorpusSchemaVersion = 1;                    ///< PRAGMA user_version
 inline constexpr std::int32_t kCorpusApplicationId = 0x52434350;  ///< PRAGMA application_id: "RCCP"
-inline constexpr int kBusyTimeout_ms = 30'000;                    ///< how long to wait for another process
+inline constexpr std::size_t kRememberedCodes = 4096;
+inline constexpr int kBusyTimeout_ms = 30'000;  ///< how long to wait for another process
 
 /// Comes back bit for bit as it was added, except that -0.0 becomes 0.0 outside the coefficients (SQLite's REAL).
 struct StoredMotion {
   std::int64_t id = 0;  ///< > 0, grows in the order of adding, never reused
   MotionCode code;
-};
-
-/// A stored motion without its coefficients: all that a neighbour search looks at.
-struct MotionSummary {
-  std::int64_t id = 0;
-  std::int64_t subject_id = 0;  ///< equal for motions whose Subject has the same four values
-  Subject subject;
-  Phase phase = Phase::transfer;
-  std::string origin;
-  bool is_mirrored = false;
-  double duration_s = 0.0;
-  Vec3 home{0.0};    ///< body frame, metres
-  Vec3 target{0.0};  ///< body frame, metres
-  double grip_distance_m = 0.0;
 };
 
 /// Movable. Its functions may be called from several threads; they take turns.
@@ -69,8 +57,11 @@ class Corpus {
   std::vector<std::int64_t> add(std::span<const MotionCode> codes);
 
   [[nodiscard]] std::size_t size() const;
-  [[nodiscard]] std::vector<StoredMotion> motions() const;     ///< all, in id order
-  [[nodiscard]] std::vector<MotionSummary> summaries() const;  ///< all, in id order, without reading coefficients
+  [[nodiscard]] std::vector<StoredMotion> motions() const;  ///< all, in id order
+  /// All motions without their coefficients, in id order. Kept, and read again when the file has changed.
+  [[nodiscard]] std::shared_ptr<const MotionTable> table() const;
+  /// One code. Up to kRememberedCodes of them are kept until `table` finds that the file has changed.
+  [[nodiscard]] std::shared_ptr<const MotionCode> code(std::int64_t id) const;
   /// The codes of these ids, in their order; repeated ids are legal.
   [[nodiscard]] std::vector<StoredMotion> load(std::span<const std::int64_t> ids) const;
 

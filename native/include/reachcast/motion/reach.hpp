@@ -21,6 +21,7 @@ enum class Phase {
   reach,     ///< hands empty, to the box
   retrieve,  ///< loaded, shelf to home
 };
+inline constexpr std::size_t kPhaseCount = 4;
 [[nodiscard]] std::string_view phase_name(Phase phase);
 [[nodiscard]] std::optional<Phase> find_phase(std::string_view name);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "reachcast/motion/motion_code.hpp"
@@ -17,10 +18,13 @@ struct Blend {
   std::vector<Neighbour> neighbours;  ///< both sets; a motion of both has the mean of its two weights; heaviest first
 };
 
-/// `code_of` finds a motion by its id. Paths are carried onto the wanted axis before they are averaged. Throws
-/// std::invalid_argument for k < 1, no motion of the phase, or codes of another length than this version's.
-[[nodiscard]] Blend blend_neighbours(std::span<const MotionSummary> candidates, const Query& query, int k,
-                                     const std::function<MotionCode(std::int64_t)>& code_of);
+/// Finds a motion's code by its id.
+using CodeOf = std::function<std::shared_ptr<const MotionCode>(std::int64_t)>;
+
+/// Paths are carried onto the wanted axis before they are averaged. Throws std::invalid_argument for k < 1, no motion
+/// of the phase, or codes of another length than this version's.
+[[nodiscard]] Blend blend_neighbours(const MotionTable& table, const Query& query, int k, const CodeOf& code_of,
+                                     const LeftOut& left_out = {});
 
 /// Posture coordinates at scaled time t in [0, 1].
 [[nodiscard]] Eigen::VectorXd coordinates_at(const Blend& blend, double t);

@@ -2,7 +2,7 @@
 /// Which recorded motions are like the one wanted (Faraway 2004, sections 3.4 and 5).
 #pragma once
 
-#include <span>
+#include <functional>
 #include <vector>
 
 #include "reachcast/corpus/corpus.hpp"
@@ -27,6 +27,9 @@ struct Neighbour {
   double stature_difference_m = 0.0;
 };
 
+/// Says of a motion that it must not take part.
+using LeftOut = std::function<bool(const MotionSummary&)>;
+
 /// Which end of the motion a set of neighbours is for.
 enum class End { home, target };
 
@@ -35,8 +38,9 @@ enum class End { home, target };
 /// lift has nothing to say about a low shelf. So there is one set for each end: the task's distance counts that end
 /// whole and the other end by a quarter. Where all homes are equal both sets are the paper's.
 /// Equal values share the smallest rank; equal sums go by id. Fewer than k motions: all of them.
+/// Motions for which `left_out` holds are as if they were not there.
 /// Throws std::invalid_argument when k < 1 or the phase has no motion.
-[[nodiscard]] std::vector<Neighbour> nearest_motions(std::span<const MotionSummary> motions, const Query& query,
-                                                     End end, int k);
+[[nodiscard]] std::vector<Neighbour> nearest_motions(const MotionTable& table, const Query& query, End end, int k,
+                                                     const LeftOut& left_out = {});
 
 }  // namespace reachcast
