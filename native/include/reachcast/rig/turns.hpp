@@ -53,8 +53,10 @@ namespace reachcast {
 /// The smallest turn that brings the unit `start` onto the unit `end`; half a turn about any_across when they oppose.
 [[nodiscard]] inline Mat3 smallest_turn(const Vec3& start, const Vec3& end) {
   const double cosine = glm::dot(start, end);
-  if (cosine < -1.0 + 1e-12) return turn_about(any_across(start), kPi);
-  return rodrigues(glm::cross(start, end), 1.0, 1.0 / (1.0 + cosine));
+  const Vec3 normal = glm::cross(start, end);
+  if (cosine > -0.99) return rodrigues(normal, 1.0, 1.0 / (1.0 + cosine));
+  const double sine = glm::length(normal);  // 1 + cosine has lost its digits here
+  return sine < 1e-8 ? turn_about(any_across(start), kPi) : turn_about(normal / sine, std::atan2(sine, cosine));
 }
 
 /// Angle in (-pi, pi] from `start` to `end`, both across the unit `axis`, counted about it.
