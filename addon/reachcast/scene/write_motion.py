@@ -18,8 +18,8 @@ _ROTATION_PATHS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_
 
 def write_rig_action(rig: bpy.types.Object, skeleton: Skeleton, pose: Any, name: str,
                      first_frame: int) -> bpy.types.Action:
-    """A new Action on `rig` of a reachcast_core.RigPose: a rotation per keyed bone and frame, the pelvis's place, and one
-    key that holds what must not move (the scale and place of every keyed bone)."""
+    """A new Action on `rig` of a reachcast_core.RigPose: a rotation per keyed bone and frame, the pelvis's place, and
+    one key that holds what must not move (the scale and place of every keyed bone)."""
     pelvis = skeleton.segments["pelvis"]
     channels = []
     for bone in skeleton.keyed:
