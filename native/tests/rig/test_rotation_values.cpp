@@ -84,6 +84,38 @@ TEST(RotationValues, ARestAtTheGimbalKeepsTheFirstAngle) {
   }
 }
 
+/// A right angle without rounding, so that nothing but the sum of the outer angles is left in the matrix.
+Mat3 exact_right_angle(char axis, double sign) {
+  const int j = axis - 'X', k = (j + 1) % 3, i = (j + 2) % 3;
+  Mat3 out(0.0);
+  out[j][j] = 1.0;
+  out[k][i] = sign;
+  out[i][k] = -sign;
+  return out;
+}
+
+TEST(RotationValues, TheFirstAngleIsKeptExactlyAtTheGimbal) {
+  for (const std::string_view order : kOrders) {
+    for (const double sign : {-1.0, 1.0}) {
+      std::vector<Mat3> path;
+      std::array<double, 3> angles{};
+      const auto angle = [&](int place) -> double& {
+        return angles[static_cast<std::size_t>(order[static_cast<std::size_t>(place)] - 'X')];
+      };
+      angle(0) = 0.7;
+      angle(1) = sign * 1.5;
+      path.push_back(meant(angles, order));
+      Vec3 last(0.0), first(0.0);
+      last[order[2] - 'X'] = first[order[0] - 'X'] = 1.0;
+      path.push_back(turn_about(last, 0.3) * exact_right_angle(order[1], sign) * turn_about(first, 0.7));
+      expect_meant(path, order);
+      const std::vector<double> values = values_of(path, order);
+      EXPECT_NEAR(values[3 + static_cast<std::size_t>(order[0] - 'X')], 0.7, kMatrix) << order;
+      EXPECT_NEAR(values[3 + static_cast<std::size_t>(order[2] - 'X')], 0.3, kMatrix) << order;
+    }
+  }
+}
+
 TEST(RotationValues, SpinsOfManyTurnsDoNotJump) {
   std::vector<Mat3> spin;
   const double step = 4.0 * kPi / 119.0;
