@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A stand-in for reachcast_core with the same names: a statue whose arms alone carry a box along an arc.
 
-Lets the add-on's reading and writing be tested without the native module or a corpus. Not a predictor.
+Lets the add-on's reading and writing be tested without a corpus. Not a predictor. Rigs are posed by the real module.
 """
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from typing import Any
 from unittest import mock
 
 import numpy as np
+from reachcast import native
 from reachcast.rigs.joints import INDEX, JOINTS
 
 SECONDS = 2.0
@@ -150,4 +151,6 @@ def installed() -> Any:
     module = ModuleType("reachcast_core")
     for name in ("Body", "Subject", "Box", "Task", "Corpus", "Motion", "predict", "JOINTS"):
         setattr(module, name, globals()[name])
+    for name in ("RestRig", "rotation_values"):
+        setattr(module, name, getattr(native.core(), name))
     return mock.patch.dict(sys.modules, {"reachcast_core": module})

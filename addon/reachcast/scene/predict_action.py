@@ -17,8 +17,8 @@ from .. import native
 from ..corpora import default_corpus, opened_corpus
 from ..rigs.bone_map import BoneMap
 from ..rigs.joints import INDEX, JOINTS
-from ..rigs.retarget import EXACT_JOINTS, RigPose, posed_joints, retarget
-from ..rigs.rotations import Array, axis_rotation
+from ..rigs.retarget import EXACT_JOINTS, retarget
+from ..rigs.rotations import Array
 from ..rigs.skeleton import Skeleton
 from .action_writer import refuse_unwritable
 from .movers import moves_bones, moves_object, refuse_moved
@@ -84,12 +84,13 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
                       {"frame_rate": scene.render.fps / scene.render.fps_base, **options})
     joints = skeleton.to_world(np.asarray(motion.positions, float))
     pose = retarget(skeleton, joints)
-    errors = _errors(skeleton, lift, motion, pose, joints)
+    places = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
+    errors = _errors(skeleton, lift, motion, pose, joints, places)
     first = scene.frame_current if start_frame is None else int(start_frame)
     name = f"{rig.name} to {shelf.name}"
     above = above_matrix(box, layer) if box else None
     action = write_rig_action(rig, skeleton, pose, name, first)
-    box_action = _write_box(box, above, skeleton, lift, motion, f"{box.name} to {shelf.name}", first) if box else None
+    box_action = _write_box(box, above, lift, places, f"{box.name} to {shelf.name}", first) if box else None
     result = PredictionResult(
         rig.name, action.name, box_action.name if box_action else None,
         MappingProxyType({event: first + int(motion.events[event]) for event in EVENTS}), first,
@@ -149,17 +150,18 @@ def _predict(core: ModuleType, skeleton: Skeleton, lift: Lift, corpus: object, s
     return motion
 
 
-def _errors(skeleton: Skeleton, lift: Lift, motion: Any, pose: RigPose, joints: Array) -> dict[str, float]:
+def _errors(skeleton: Skeleton, lift: Lift, motion: Any, pose: Any, joints: Array,
+            places: tuple[Array, Array]) -> dict[str, float]:
     """How far the rig's bones, by forward kinematics, are from what was asked: the box at release from the shelf, the
     grips from their handles, the joints from the prediction. ValueError when the rig cannot follow."""
-    reached = posed_joints(skeleton, pose)
+    reached = pose.joints()
     misfit = np.linalg.norm(reached - joints, axis=2)[:, EXACT_JOINTS]
     if (worst := float(misfit.max())) > MAX_MISFIT_M:
         frame, joint = np.unravel_index(int(misfit.argmax()), misfit.shape)
         raise ValueError(f"Rig '{skeleton.name}' cannot follow the predicted motion: "
                          f"{JOINTS[EXACT_JOINTS[joint]]} would be {worst * 1000:.1f} mm off at frame {frame}; "
                          f"the limit is {MAX_MISFIT_M * 1000:g} mm")
-    origins, turns = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
+    origins, turns = places
     held = slice(int(motion.events["grasp"]), int(motion.events["release"]) + 1)
     grip = 0.0
     for word, side in (("left", -0.5), ("right", 0.5)):
@@ -169,11 +171,11 @@ def _errors(skeleton: Skeleton, lift: Lift, motion: Any, pose: RigPose, joints: 
     return {"landing": float(np.linalg.norm(landed - skeleton.to_world(lift.target))), "grip": grip, "pose": worst}
 
 
-def _write_box(box: bpy.types.Object, above: Array, skeleton: Skeleton, lift: Lift, motion: Any, name: str,
+def _write_box(box: bpy.types.Object, above: Array, lift: Lift, places: tuple[Array, Array], name: str,
                first: int) -> bpy.types.Action:
-    origins, turns = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
+    origins, turns = places
     if lift.half_turn:
-        turns = turns @ axis_rotation(np.array([0.0, 0.0, 1.0]), np.pi)
+        turns = turns * np.array([-1.0, -1.0, 1.0])
     return write_box_action(box, above, origins + turns @ np.array(lift.box.origin_offset), turns, name, first)
 
 
