@@ -131,9 +131,11 @@ class Writing(Scene):
         skeleton = read_rig(self.rig)
         keyed = {curve.data_path.split('"')[1] for curve in action.fcurves}
         self.assertEqual(keyed, {skeleton.bones.names[bone] for bone in skeleton.keyed})
-        for curve in action.fcurves:
-            if curve.data_path.endswith("scale"):
-                self.assertEqual([tuple(key.co)[1] for key in curve.keyframe_points], [1.0])
+        self.assertFalse([curve.data_path for curve in action.fcurves if curve.data_path.endswith("scale")])
+        self.rig.pose.bones["upper_arm.L"].scale = (1.0, 1.3, 1.0)
+        action = bpy.data.actions[self.predict().action]
+        scales = [curve for curve in action.fcurves if curve.data_path.endswith("scale")]
+        self.assertEqual([[tuple(key.co)[1] for key in curve.keyframe_points] for curve in scales], [[1.0]] * 3)
 
     def test_a_pose_that_was_there_does_not_leak_into_the_motion(self) -> None:
         self.furnish()

@@ -7,19 +7,23 @@ from typing import Any
 import bpy
 import numpy as np
 from bpy.utils import escape_identifier
+from mathutils import Vector
 
 from .. import native
 from ..rigs.rotations import Array, from_quaternion
 from ..rigs.skeleton import Skeleton
 from .action_writer import Channel, write_action
 
+_NOWHERE, _UNSCALED = Vector((0.0, 0.0, 0.0)), Vector((1.0, 1.0, 1.0))
 _ROTATION_PATHS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
 
 
 def write_rig_action(rig: bpy.types.Object, skeleton: Skeleton, pose: Any, name: str,
                      first_frame: int) -> bpy.types.Action:
-    """A new Action on `rig` of a reachcast_core.RigPose: a rotation per keyed bone and frame, the pelvis's place, and
-    one key that holds what must not move (the scale and place of every keyed bone)."""
+    """A new Action on `rig` of a reachcast_core.RigPose: a rotation per keyed bone and frame and the pelvis's place.
+
+    A keyed bone that is posed with a scale or an offset of its own also gets one key that takes it to none.
+    """
     pelvis = skeleton.segments["pelvis"]
     channels = []
     for bone in skeleton.keyed:
@@ -29,11 +33,12 @@ def write_rig_action(rig: bpy.types.Object, skeleton: Skeleton, pose: Any, name:
         mode = pose_bone.rotation_mode
         if bone == pelvis:
             channels.append(Channel(path + "location", _pelvis_location(rig, skeleton, pose), bone_name))
-        elif not pose_bone.bone.use_connect:
+        elif pose_bone.location != _NOWHERE and not pose_bone.bone.use_connect:
             channels.append(Channel(path + "location", np.zeros((1, 3)), bone_name))
         channels.append(Channel(path + _ROTATION_PATHS.get(mode, "rotation_euler"),
                                 pose.rotation_values(bone, mode), bone_name))
-        channels.append(Channel(path + "scale", np.ones((1, 3)), bone_name))
+        if pose_bone.scale != _UNSCALED:
+            channels.append(Channel(path + "scale", np.ones((1, 3)), bone_name))
     return write_action(rig, name, channels, first_frame)
 
 
