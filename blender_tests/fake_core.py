@@ -86,6 +86,7 @@ class Neighbour:
     mirrored: bool = False
     weight: float = 1.0
     distances: Any = field(default_factory=lambda: {"target": 0.1, "home": 0.0, "stature": 0.02})
+    phase: str = "transfer"
 
 
 @dataclass
@@ -95,6 +96,7 @@ class Motion:
     box_positions: np.ndarray
     box_quaternions: np.ndarray
     events: dict[str, int]
+    phases: list[tuple[str, int, int]]
     joints: tuple[str, ...] = JOINTS
     neighbours: list[Neighbour] = field(default_factory=lambda: [Neighbour()])
     outside_data: bool = False
@@ -117,7 +119,8 @@ def predict(corpus: Corpus, subject: Subject, task: Task, body: Body | None = No
     _place_arm(positions, "left", middle - handle)
     _place_arm(positions, "right", middle + handle)
     return Motion(positions, np.arange(count) / frame_rate, box, turned,
-                  {"grasp": 0, "lift_off": 2, "placed": count - 4, "release": count - 3, "end": count - 1})
+                  {"grasp": 0, "lift_off": 2, "placed": count - 4, "release": count - 3, "end": count - 1},
+                  [("transfer", 2, count - 4)])
 
 
 def _place_arm(positions: np.ndarray, word: str, grips: np.ndarray) -> None:
