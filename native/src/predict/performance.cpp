@@ -7,6 +7,7 @@
 #include "reachcast/motion/encode.hpp"
 #include "reachcast/posture/linkage.hpp"
 #include "reachcast/posture/twist.hpp"
+#include "reachcast/predict/stand.hpp"
 
 namespace reachcast {
 namespace {
@@ -20,8 +21,6 @@ constexpr double kOpening_m = 0.03;       // how far each hand keeps from the si
 constexpr double kClosed = 0.15;          // share of an empty hand's way over which it opens, next to the object
 constexpr double kPast = 0.8;             // and by which the opening has gone
 constexpr double kMostBoxTurn_rad = 0.5;  // that recorded hands may add to a box's turn on its way
-constexpr double kHangOutwards = 0.12, kHangForwards = 0.10;  // per metre downwards
-constexpr double kHangStretch = 0.97;                         // of the arm's length
 
 double heading(const Vec3& v) {
   return std::atan2(v.y, v.x);
@@ -37,19 +36,6 @@ Vec3 hold_point(const Grips& grips) {
   return 0.5 * (grips[0] + grips[1]);
 }
 
-Grips hanging_grips(const Body& body) {
-  using enum Joint;
-  Grips grips;
-  for (const bool left : {true, false}) {
-    const Joint shoulder = left ? left_shoulder : right_shoulder, elbow = left ? left_elbow : right_elbow;
-    const Joint wrist = left ? left_wrist : right_wrist, grip = left ? left_grip : right_grip;
-    const double arm = body.distance(shoulder, elbow) + body.distance(elbow, wrist);
-    const Vec3 down = glm::normalize(Vec3(left ? -kHangOutwards : kHangOutwards, kHangForwards, -1.0));
-    grips[left ? 0 : 1] = body.at(shoulder) + down * (kHangStretch * arm + body.distance(wrist, grip));
-  }
-  return grips;
-}
-
 Grips grips_on(const Task& task, Place place) {
   const BoxPose pose =
       place == Place::home ? BoxPose{task.home, task.home_yaw_rad} : BoxPose{task.target, task.target_yaw_rad};
@@ -58,8 +44,9 @@ Grips grips_on(const Task& task, Place place) {
 
 HandEnds hand_ends(const Stage& stage, const Task& task, const Body& body) {
   const Grips here = grips_on(task, stage.object);
-  if (stage.phase == Phase::reach) return {hanging_grips(body), here};
-  if (stage.phase == Phase::return_) return {here, hanging_grips(body)};
+  const Grips hanging = anchors_of(standing_at_ease(body)).grip;
+  if (stage.phase == Phase::reach) return {hanging, here};
+  if (stage.phase == Phase::return_) return {here, hanging};
   return {here, grips_on(task, stage.object == Place::home ? Place::target : Place::home)};
 }
 
@@ -97,16 +84,26 @@ Performance::Performance(const Plan& plan, const std::vector<Blend>& blends, con
   if (report.shortfall_m > 0.0) last_opening_m_ = 0.0;  // hands at the end of their reach stay
 }
 
-/// Coordinates at the joint of two stages are the mean of where the one ends and the other begins.
+/// Coordinates where two stages meet are the mean of where the one ends and the other begins; where the hands hang they
+/// are those of this body standing at ease.
 void Performance::join(std::size_t i) {
   const auto between = [&](const Blend& before, const Blend& after) {
     return Eigen::VectorXd(0.5 * (coordinates_at(before, 1.0) + coordinates_at(after, 0.0)));
   };
+  const auto at_ease = [&] { return encode_posture(two_handed_linkage(), standing_at_ease(body_)); };
   Act& act = acts_[i];
   const Eigen::VectorXd first = coordinates_at(*act.blend, 0.0), last = coordinates_at(*act.blend, 1.0);
   act.first_shift = act.last_shift = Eigen::VectorXd::Zero(first.size());
-  if (i > 0) act.first_shift = between(*acts_[i - 1].blend, *act.blend) - first;
-  if (i + 1 < acts_.size()) act.last_shift = between(*act.blend, *acts_[i + 1].blend) - last;
+  if (act.stage->phase == Phase::reach) {
+    act.first_shift = at_ease() - first;
+  } else if (i > 0) {
+    act.first_shift = between(*acts_[i - 1].blend, *act.blend) - first;
+  }
+  if (act.stage->phase == Phase::return_) {
+    act.last_shift = at_ease() - last;
+  } else if (i + 1 < acts_.size()) {
+    act.last_shift = between(*act.blend, *acts_[i + 1].blend) - last;
+  }
 }
 
 /// Hands that cannot go round the object's corners because they are at the end of their reach go straight.

@@ -20,13 +20,10 @@ using Grips = std::array<Vec3, 2>;
 
 [[nodiscard]] Vec3 hold_point(const Grips& grips);
 
-/// Where the hands of a person who stands at ease hang: beside the thighs, a little ahead, the elbows nearly straight.
-[[nodiscard]] Grips hanging_grips(const Body& body);
-
 /// The hands' grips on the object where it stands.
 [[nodiscard]] Grips grips_on(const Task& task, Place place);
 
-/// Hands at the start and the end of a stage.
+/// Hands at the start and the end of a stage. Empty ones come from, and go back to, where they hang (stand.hpp).
 struct HandEnds {
   Grips first, last;
 };
