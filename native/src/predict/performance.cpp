@@ -81,13 +81,9 @@ void Performance::find_openings() {
     if (!is_loaded(act.stage->phase)) act.opening_m = opening_of(act);
   }
   last_opening_m_ = kOpening_m;
-  const auto end = static_cast<double>(plan_.end);
-  HoldReport report;
-  if (is_loaded(acts_.back().stage->phase)) {
-    const Anchors opened = anchors(grips(end));
-    (void)holder_.hold(decoded(end, opened), opened, load(end), report);
+  if (is_loaded(acts_.back().stage->phase) && report_at(static_cast<double>(plan_.end)).shortfall_m > 0.0) {
+    last_opening_m_ = 0.0;
   }
-  if (report.shortfall_m > 0.0) last_opening_m_ = 0.0;
 }
 
 void Performance::raise_over_edges() {
@@ -327,6 +323,13 @@ Posture Performance::posture(double moment, const Tracks& tracks, HoldReport& re
   const double time_s = moment / frame_rate_;
   return holder_.hold(tracks.learned.at(time_s), tracks.stance.at(time_s), anchors(grips(moment)), load(moment),
                       report);
+}
+
+HoldReport Performance::report_at(double moment) const {
+  const Anchors at = anchors(grips(moment));
+  HoldReport report;
+  (void)holder_.hold(decoded(moment, at), at, load(moment), report);
+  return report;
 }
 
 Anchors Performance::anchors(const Grips& grips) const {

@@ -202,12 +202,26 @@ void perform_freely(const std::vector<Blend>& blends, const Subject& subject, co
   }
 }
 
+/// That a place is out of reach is said before anything about the way to it.
+void require_places_in_reach(const Performance& performance, Motion& motion) {
+  for (const Stage& stage : motion.plan.stages) {
+    for (const std::size_t frame : {stage.first, stage.last}) {
+      const HoldReport report = performance.report_at(static_cast<double>(frame));
+      if (report.shortfall_m == 0.0) continue;
+      motion.box.resize(frame + 1);
+      motion.box[frame] = performance.object(static_cast<double>(frame));
+      fail_out_of_reach({frame, report}, motion, hold_point(performance.grips(static_cast<double>(frame))));
+    }
+  }
+}
+
 /// Ways round the obstacles that this body cannot hold give way to the next.
 void perform_past(const Obstacles& obstacles, const std::vector<Blend>& blends, const Subject& subject,
                   const Task& task, const Body& body, const PredictOptions& options, Motion& motion) {
   std::vector<std::size_t> shapes(blends.size(), 0);
   for (int attempt = 1;; ++attempt) {
     Performance performance(motion.plan, blends, task, body, body_mass(subject), options.frame_rate);
+    if (attempt == 1) require_places_in_reach(performance, motion);
     shapes = performance.go_round(obstacles, options.clearance_m, shapes);
     const std::optional<Failure> failure = perform(performance, options.frame_rate, motion);
     if (!failure) return;

@@ -105,6 +105,15 @@ TEST(Obstacles, TheBoxComesToABoardFromAboveAndNotThroughIt) {
   EXPECT_GT(bent, 3) << "else nothing was in the way";
 }
 
+TEST(Obstacles, APlaceOutOfReachIsSaidBeforeTheWayToIt) {
+  const Task t = task({0.0, 0.34, 0.05}, {0.0, 0.55, 2.4});
+  PredictOptions how = options(24.0);
+  how.obstacles = std::make_shared<const Obstacles>(board({-2, -2, 1.8}, {2, 2, 1.82}));
+  expect_contains(message_of<std::invalid_argument>(
+                      [&] { (void)predict(made_corpus(), subject(1.72), t, Body::from_stature(1.72), how); }),
+                  "cm out of reach");
+}
+
 TEST(Obstacles, SayWhenTheBoxWouldStandInThemOrThereIsNoWay) {
   const Task t = task({0.0, 0.42, 0.3}, {0.0, 0.45, 1.0});
   const auto said = [&](const std::vector<Triangle>& triangles) {

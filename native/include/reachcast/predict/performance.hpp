@@ -51,6 +51,9 @@ class Performance {
   [[nodiscard]] BoxPose object(double moment) const;
   [[nodiscard]] Grips grips(double moment) const;
 
+  /// How the posture of this moment can be held, by itself.
+  [[nodiscard]] HoldReport report_at(double moment) const;
+
   /// The learned trunk and what must be changed about it, found at moments that do not depend on the frame rate.
   struct Tracks {
     TrunkTrack learned;
