@@ -35,7 +35,8 @@ HandPathModel fit_model(const std::vector<DoubleArray>& paths, int degree, const
                         const std::string& scaling, const std::optional<DoubleArray>& durations,
                         const SpeedProfile& speed, const std::string& parameterisation, const std::string& trend,
                         const py::dict& covariates, bool displacement, bool distance,
-                        const std::map<std::string, double>& lengths, double ridge) {
+                        const std::map<std::string, double>& lengths, double ridge,
+                        const std::vector<std::string>& people) {
   HandPathFit options;
   options.form = {degree, choice(kOrigins, parameterisation, "parameterisation"),
                   choice(kScalings, scaling, "scaling")};
@@ -48,6 +49,7 @@ HandPathModel fit_model(const std::vector<DoubleArray>& paths, int degree, const
   options.distance = distance;
   options.lengths = lengths;
   options.ridge = ridge;
+  options.people = people;
   std::vector<Points> given;
   for (const DoubleArray& path : paths) given.push_back(to_points(path, "paths[" + std::to_string(given.size()) + "]"));
   const py::gil_scoped_release release;
@@ -142,7 +144,7 @@ void bind_fit(ModelClass& model) {
           "scaling"_a = "distance", "durations"_a = py::none(), "speed"_a = defaults.speed,
           "parameterisation"_a = "axis", "trend"_a = "linear", "covariates"_a = py::dict(),
           "displacement"_a = defaults.displacement, "distance"_a = defaults.distance, "lengths"_a = py::dict(),
-          "ridge"_a = defaults.ridge,
+          "ridge"_a = defaults.ridge, "people"_a = defaults.people,
           "paths: list of (n, 3), the ends of each at least 1 cm apart unless scaling is 'none'.\n"
           "scaling: 'none', 'distance' or 'distance_time'; the latter needs durations (seconds, one per path), here "
           "and "
@@ -155,7 +157,8 @@ void bind_fit(ModelClass& model) {
           "group means.\n"
           "trend: 'linear', 'quadratic' or 'smooth' (kernel ridge regression). For smooth, lengths gives by name over "
           "which difference reaches stay alike (vectors 0.6 m, labels 1, numbers their standard deviation), ridge the "
-          "variance about the surface relative to the surface's own.");
+          "variance about the surface relative to the surface's own.\n"
+          "people: who made each path; residuals and covariance are then those of a person learned from the others.");
 }
 
 void bind_predictions(ModelClass& model) {

@@ -103,6 +103,20 @@ std::variant<LinearFit, SmoothFit> fit_trend(const Design& design, const Eigen::
   return SmoothFit(rows, offsets, column_lengths(design, rows, options), options.ridge);
 }
 
+/// Which paths each person made, in order of the names.
+Members paths_of_people(const std::vector<std::string>& people, std::size_t paths) {
+  if (people.size() != paths) {
+    refuse("people has " + std::to_string(people.size()) + " values, expected " + std::to_string(paths) +
+           ", one per path");
+  }
+  std::map<std::string, std::vector<Eigen::Index>> made;
+  for (std::size_t i = 0; i < paths; ++i) made[people[i]].push_back(static_cast<Eigen::Index>(i));
+  if (made.size() < 2) refuse("people has 1 different name, expected at least 2 to learn one from the others");
+  Members members;
+  for (auto& person : made) members.push_back(std::move(person.second));
+  return members;
+}
+
 }  // namespace
 
 Points HandPath::positions(std::span<const double> t) const {
@@ -134,6 +148,13 @@ HandPathModel HandPathModel::fit(std::span<const Points> paths, const HandPathFi
   Design design(covariates, options.trend == Trend::quadratic);
   const Eigen::MatrixXd rows = design.rows(covariates, paths.size());
   HandPathModel model(options.form, options.speed, fit_trend(design, rows, offsets, options));
+  if (!options.people.empty()) {
+    const Members members = paths_of_people(options.people, paths.size());
+    model.residuals_.rows =
+        std::visit([&](const auto& trend) { return trend.left_out_residuals(members); }, model.trend_);
+    const Eigen::MatrixXd& rows_left_out = model.residuals_.rows;
+    model.residuals_.covariance = rows_left_out.transpose() * rows_left_out / static_cast<double>(paths.size());
+  }
   model.design_ = std::move(design);
   model.displacement_ = options.displacement;
   model.distance_ = options.distance;
@@ -148,10 +169,6 @@ Eigen::RowVectorXd HandPathModel::row(const Vec3& start, const Vec3& end, const 
 
 Eigen::VectorXd HandPathModel::mean(const Eigen::RowVectorXd& row) const {
   return std::visit([&](const auto& trend) { return trend.mean(row); }, trend_);
-}
-
-const Residuals& HandPathModel::residuals() const {
-  return std::visit([](const auto& trend) -> const Residuals& { return trend.residuals(); }, trend_);
 }
 
 const Eigen::MatrixXd& HandPathModel::required_covariance() const {

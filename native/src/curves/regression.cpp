@@ -71,6 +71,7 @@ LinearFit::LinearFit(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& resp
       Eigen::MatrixXd::Identity(x.cols(), x.cols()));
   const Eigen::MatrixXd spread = back.asDiagonal() * (qr.colsPermutation() * root);
   inverse_ = spread * spread.transpose();
+  basis_ = x * spread;
   residuals_ = residuals_with(responses - x * coefficients_, static_cast<double>(x.rows() - x.cols()));
 }
 
@@ -87,6 +88,26 @@ double LinearFit::leverage(const Eigen::RowVectorXd& row) const {
   Eigen::RowVectorXd x(row.size() + 1);
   x << 1.0, row;
   return x * inverse_ * x.transpose();
+}
+
+// For the rows b of a group and the hat matrix H, the residuals without the group are (I - H_bb)^-1 r_b.
+Eigen::MatrixXd LinearFit::left_out_residuals(const Members& groups) const {
+  Eigen::MatrixXd rows = residuals_.rows;
+  for (const std::vector<Eigen::Index>& group : groups) {
+    const auto size = static_cast<Eigen::Index>(group.size());
+    const Eigen::MatrixXd basis = basis_(group, Eigen::all);
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+    qr.setThreshold(kRankTolerance);
+    qr.compute(Eigen::MatrixXd::Identity(size, size) - basis * basis.transpose());
+    if (qr.rank() < size) {
+      throw std::invalid_argument("people: without the person of path " + std::to_string(group.front()) +
+                                  " the others leave a coefficient open");
+    }
+    const Eigen::MatrixXd inside = residuals_.rows(group, Eigen::all);
+    const Eigen::MatrixXd outside = qr.solve(inside);
+    rows(group, Eigen::all) = outside;
+  }
+  return rows;
 }
 
 Eigen::MatrixXd LinearFit::standard_errors() const {

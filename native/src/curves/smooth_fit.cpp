@@ -35,6 +35,20 @@ SmoothFit::SmoothFit(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& resp
   residuals_ = residuals_with(ridge * weights_, ridge * inverse_root.squaredNorm() - 1.0);
 }
 
+// For the rows b of a group and A = (K + ridge I)^-1, the residuals without the group are A_bb^-1 w_b (Rasmussen and
+// Williams 2006, section 5.4.2, for groups). With L the factor of K + ridge I, A_bb = (L^-1)_b^T (L^-1)_b.
+Eigen::MatrixXd SmoothFit::left_out_residuals(const Members& groups) const {
+  Eigen::MatrixXd rows(weights_.rows(), weights_.cols());
+  const Eigen::MatrixXd root = factor_.matrixL().solve(Eigen::MatrixXd::Identity(rows.rows(), rows.rows()));
+  for (const std::vector<Eigen::Index>& group : groups) {
+    const Eigen::MatrixXd columns = root(Eigen::all, group);
+    const Eigen::MatrixXd weights = weights_(group, Eigen::all);
+    const Eigen::MatrixXd outside = (columns.transpose() * columns).llt().solve(weights);
+    rows(group, Eigen::all) = outside;
+  }
+  return rows;
+}
+
 Eigen::VectorXd SmoothFit::kernel(const Eigen::RowVectorXd& row) const {
   const Eigen::RowVectorXd place = row.cwiseQuotient(lengths_.transpose());
   return (places_.rowwise() - place).rowwise().squaredNorm().unaryExpr([](double d) { return std::exp(-0.5 * d); });

@@ -46,6 +46,10 @@ struct HandPathFit {
   std::vector<Covariate> covariates;  ///< one value per path; names "displacement" and "distance" are taken
   bool displacement = false;          ///< the vector from start to end is a covariate, known of every path
   bool distance = false;              ///< its length is one
+  /// Who made each path, or empty. A person's reaches resemble each other, so what is left of them around a fit that
+  /// knows the person is too little for a stranger. With people, the residuals are those of each person when learned
+  /// from the others, and the covariance (divisor: paths) is theirs.
+  std::vector<std::string> people;
   /// For smooth: over which difference of a covariate reaches stay alike, by name. Otherwise kVectorLength_m, a label's
   /// 1, and a number's standard deviation.
   std::map<std::string, double> lengths;
@@ -109,12 +113,14 @@ class HandPathModel {
   /// far from its data. Throws std::invalid_argument for linear and quadratic trends with covariates.
   [[nodiscard]] Points offsets() const;
   /// Of the scaled offsets stacked as x, y, z of P_1, then P_2, ...: residuals, their covariance and freedom.
-  [[nodiscard]] const Residuals& residuals() const;
+  [[nodiscard]] const Residuals& residuals() const { return residuals_; }
   [[nodiscard]] const std::optional<Eigen::MatrixXd>& covariance() const { return residuals().covariance; }
 
  private:
   HandPathModel(const OffsetForm& form, const SpeedProfile& speed, std::variant<LinearFit, SmoothFit> trend)
-      : form_(form), speed_(speed), trend_(std::move(trend)) {}
+      : form_(form), speed_(speed), trend_(std::move(trend)) {
+    residuals_ = std::visit([](const auto& any) { return any.residuals(); }, trend_);
+  }
   [[nodiscard]] Eigen::RowVectorXd row(const Vec3& start, const Vec3& end, const ReachDetails& details) const;
   [[nodiscard]] Eigen::VectorXd mean(const Eigen::RowVectorXd& row) const;
   [[nodiscard]] const Eigen::MatrixXd& required_covariance() const;
@@ -122,6 +128,7 @@ class HandPathModel {
   OffsetForm form_;
   SpeedProfile speed_;
   std::variant<LinearFit, SmoothFit> trend_;
+  Residuals residuals_;
   Design design_;
   bool displacement_ = false, distance_ = false;
 };

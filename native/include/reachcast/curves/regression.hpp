@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace reachcast {
 
@@ -17,6 +18,8 @@ struct Residuals {
   /// rows^T rows / freedom; empty when less than one degree of freedom is left.
   std::optional<Eigen::MatrixXd> covariance;
 };
+
+using Members = std::vector<std::vector<Eigen::Index>>;  ///< rows of each group
 
 [[nodiscard]] Residuals residuals_with(Eigen::MatrixXd rows, double freedom);
 
@@ -49,8 +52,12 @@ class LinearFit {
   /// Two-sided, of Student's t for each coefficient alone; NaN where there is no standard error.
   [[nodiscard]] Eigen::MatrixXd p_values() const;
   [[nodiscard]] const Residuals& residuals() const { return residuals_; }
+  /// Residuals of each group when the fit is made without it. Throws std::invalid_argument when the others leave a
+  /// coefficient open.
+  [[nodiscard]] Eigen::MatrixXd left_out_residuals(const Members& groups) const;
 
  private:
+  Eigen::MatrixXd basis_;  ///< n x (p + 1), orthonormal: the fitted values are basis basis^T responses
   Eigen::MatrixXd coefficients_;
   Eigen::MatrixXd inverse_;  ///< (X^T X)^-1 with the intercept's column in front
   Residuals residuals_;

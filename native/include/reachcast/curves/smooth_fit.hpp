@@ -31,6 +31,8 @@ class SmoothFit {
   [[nodiscard]] const Eigen::VectorXd& reach() const { return reach_; }
   /// Degrees of freedom are n - 1 less the trace of K (K + ridge I)^-1.
   [[nodiscard]] const Residuals& residuals() const { return residuals_; }
+  /// Residuals of each group when the surface is made without it; the centre stays that of all.
+  [[nodiscard]] Eigen::MatrixXd left_out_residuals(const Members& groups) const;
 
  private:
   [[nodiscard]] Eigen::VectorXd kernel(const Eigen::RowVectorXd& row) const;
