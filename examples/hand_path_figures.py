@@ -22,11 +22,11 @@ SECTORS = 24
 
 def views(rows=1):
     """A row of three axes with equal scales, named."""
-    figure, axes = plt.subplots(rows, 3, figsize=(12, 4.2 * rows), squeeze=False, constrained_layout=True)
+    figure, axes = plt.subplots(rows, 3, figsize=(12, 4.3 * rows), squeeze=False, constrained_layout=True)
     for row in axes:
         for axis, (title, _, _, across, up) in zip(row, VIEWS):
             axis.set(title=title, xlabel=across, ylabel=up)
-            axis.set_aspect("equal", adjustable="datalim")
+            axis.set_aspect("equal")
             axis.grid(color="0.9")
             axis.set_axisbelow(True)
     return figure, axes
@@ -39,13 +39,20 @@ def draw(row, points, **style):
         axis.plot(points[:, across], points[:, up], label=label if axis is row[0] else None, **style)
 
 
-def same_limits(axes):
-    """The views of all rows show the same part of space."""
-    for column in axes.T:
-        for name in ("x", "y"):
-            limits = np.array([getattr(axis, f"get_{name}lim")() for axis in column])
-            for axis in column:
-                getattr(axis, f"set_{name}lim")(limits[:, 0].min(), limits[:, 1].max())
+def same_scale(axes):
+    """All views are squares of the same size, and those of one column show the same part of space."""
+    boxes = [[axis.dataLim.get_points() for axis in column] for column in axes.T]
+    low = np.array([np.min([box[0] for box in column], axis=0) for column in boxes])
+    high = np.array([np.max([box[1] for box in column], axis=0) for column in boxes])
+    half = 0.54 * (high - low).max()
+    for column, (x, y) in zip(axes.T, (low + high) / 2):
+        for axis in column:
+            axis.set(xlim=(x - half, x + half), ylim=(y - half, y + half))
+
+
+def save_views(figure, axes, folder, name, title):
+    same_scale(axes)
+    return save(figure, folder, name, title)
 
 
 def save(figure, folder, name, title):
@@ -66,7 +73,7 @@ def paths_of_one_person(folder, reaches):
     for reach in mine:
         draw(axes[0], from_start(reach), color=OBSERVED, lw=0.8)
     title = f"{len(mine)} reaches of {mine[0].participant}, moved to start at the same point"
-    return save(figure, folder, "paths_of_one_person.png", title)
+    return save_views(figure, axes, folder, "paths_of_one_person.png", title)
 
 
 def paths_to_one_target(folder, reaches, target):
@@ -76,7 +83,8 @@ def paths_to_one_target(folder, reaches, target):
     for i, reach in enumerate(r for r in reaches if r.target == target):
         draw(axes[0], from_start(reach), color=colours(i % 10), lw=1.2, label=reach.participant)
     axes[0][0].legend(frameon=False)
-    return save(figure, folder, "paths_to_one_target.png", f"Reaches to target {target}, moved to start at the same point")
+    title = f"Reaches to target {target}, moved to start at the same point"
+    return save_views(figure, axes, folder, "paths_to_one_target.png", title)
 
 
 def cubic_fit(folder, reach):
@@ -88,7 +96,7 @@ def cubic_fit(folder, reach):
     draw(axes[0], control, color="0.3", ls=":", marker="o", ms=5, lw=1, label="control points")
     axes[0][0].legend(frameon=False)
     title = f"A cubic Bezier fit: {reach.participant}, target {reach.target}"
-    return save(figure, folder, "cubic_fit.png", title)
+    return save_views(figure, axes, folder, "cubic_fit.png", title)
 
 
 def bearing(vector):
@@ -128,9 +136,8 @@ def predicted_and_observed(folder, reaches, model, predict):
         draw(axes[0], from_start(reach), color=OBSERVED, lw=0.8)
         control = predict(model, reach) - reach.start
         draw(axes[1], rc.eval_bezier(control, SAMPLES), color=MODELLED, lw=0.8)
-    same_limits(axes)
     title = f"{mine[0].participant}: observed (above) and predicted from the other participants (below)"
-    return save(figure, folder, "predicted_and_observed.png", title)
+    return save_views(figure, axes, folder, "predicted_and_observed.png", title)
 
 
 def simulated_and_observed(folder, reaches, target, sample):
@@ -142,9 +149,8 @@ def simulated_and_observed(folder, reaches, target, sample):
     for seed in range(SIMULATED):
         control = sample(asked[0], seed) - asked[0].start
         draw(axes[1], rc.eval_bezier(control, SAMPLES), color=MODELLED, lw=0.8)
-    same_limits(axes)
-    title = f"Target {target}: {len(asked)} observed reaches (above), {SIMULATED} simulated with one start and end (below)"
-    return save(figure, folder, "simulated_and_observed.png", title)
+    title = f"Target {target}: {len(asked)} observed (above), {SIMULATED} simulated with one start and end (below)"
+    return save_views(figure, axes, folder, "simulated_and_observed.png", title)
 
 
 def confidence_band(folder, reach, bands):

@@ -81,8 +81,9 @@ def reaches_of(file):
         if not np.isfinite(posture).all():
             yield target, None, "has no shoulder where it starts"
             continue
+        duration = (last - first) / clip.rate
         participant = file.name.split("_")[0]
-        yield target, WallReach(participant, int(target), points[first : last + 1], posture, (last - first) / clip.rate), ""
+        yield target, WallReach(participant, int(target), points[first : last + 1], posture, duration), ""
 
 
 def read_reaches(folder):

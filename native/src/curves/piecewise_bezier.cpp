@@ -103,27 +103,42 @@ PiecewiseBezier fit_at(std::span<const Vec3> points, std::span<const double> tim
   return curve;
 }
 
-/// Sets the curve's error; the piece that makes it.
-std::size_t worst_piece(PiecewiseBezier& curve, std::span<const Vec3> points, std::span<const double> times) {
+/// Largest distance from a point to the curve, for each piece.
+std::vector<double> piece_errors(const PiecewiseBezier& curve, std::span<const Vec3> points,
+                                 std::span<const double> times) {
   const Points found = curve.positions(times);
-  std::size_t worst = 0;
+  std::vector<double> errors(curve.pieces.size(), 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double error = glm::length(points[i] - found[i]);
-    if (error > curve.error) worst = i;
-    curve.error = std::max(curve.error, error);
+    double& error = errors[piece_at(curve.breaks, times[i])];
+    error = std::max(error, glm::length(points[i] - found[i]));
   }
-  return piece_at(curve.breaks, times[worst]);
+  return errors;
 }
 
-/// Where to cut a piece: at the middle one of its points, when both halves then hold `degree` points.
+/// Where to cut a piece: at the middle one of its points, when each half then has as many as free control points.
 std::optional<double> cut_of(std::span<const double> breaks, std::size_t piece, std::span<const double> times,
                              int degree) {
   const auto first = std::upper_bound(times.begin(), times.end(), breaks[piece]);
   const auto last = std::lower_bound(first, times.end(), breaks[piece + 1]);
-  if (last - first < 2 * degree + 1) return std::nullopt;
+  if (last - first < 2 * (degree - 1) + 1) return std::nullopt;
   const double cut = *(first + (last - first) / 2);
   const bool between = cut > breaks[piece] && cut < breaks[piece + 1];
   return between ? std::optional<double>(cut) : std::nullopt;
+}
+
+/// The cut in the piece with the largest error over the tolerance that can be cut at all.
+std::optional<double> next_cut(std::span<const double> errors, std::span<const double> breaks,
+                               std::span<const double> times, const PiecewiseFit& options) {
+  std::optional<double> best;
+  double worst = options.tolerance;
+  for (std::size_t piece = 0; piece < errors.size(); ++piece) {
+    if (errors[piece] <= worst) continue;
+    const std::optional<double> cut = cut_of(breaks, piece, times, options.degree);
+    if (!cut) continue;
+    best = cut;
+    worst = errors[piece];
+  }
+  return best;
 }
 
 }  // namespace
@@ -157,11 +172,12 @@ PiecewiseBezier fit_piecewise_bezier(std::span<const Vec3> points, std::span<con
   std::vector<double> breaks{0.0, 1.0};
   while (true) {
     PiecewiseBezier curve = fit_at(points, clock, options.degree, breaks);
-    const std::size_t worst = worst_piece(curve, points, clock);
-    const bool enough = curve.error <= options.tolerance || curve.pieces.size() >= std::size_t(options.max_pieces);
-    const std::optional<double> cut = enough ? std::nullopt : cut_of(breaks, worst, clock, options.degree);
+    const std::vector<double> errors = piece_errors(curve, points, clock);
+    curve.error = *std::max_element(errors.begin(), errors.end());
+    if (curve.pieces.size() >= static_cast<std::size_t>(options.max_pieces)) return curve;
+    const std::optional<double> cut = next_cut(errors, breaks, clock, options);
     if (!cut) return curve;
-    breaks.insert(breaks.begin() + static_cast<std::ptrdiff_t>(worst) + 1, *cut);
+    breaks.insert(std::upper_bound(breaks.begin(), breaks.end(), *cut), *cut);
   }
 }
 

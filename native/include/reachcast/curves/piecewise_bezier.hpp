@@ -27,7 +27,7 @@ struct PiecewiseBezier {
 };
 
 /// Least squares over all pieces at once, through the first and the last point. Starts from one piece; the piece with
-/// the largest error is cut at the middle one of its points, as long as each half keeps `degree` points.
+/// the largest error is cut at the middle one of its points, as long as each half keeps degree - 1 of them inside.
 /// Relative times from the arc length, or given: one per point, in [0, 1], never falling.
 /// What the points leave open is settled by the smallest offsets from the straight line; two points give that line.
 /// Throws std::invalid_argument for options out of range, falling times and what `fit_bezier` refuses.
