@@ -15,6 +15,7 @@ import sys
 from pathlib import Path
 
 from hand_path_tables import CHOSEN, fit_model, markdown, path_error, predict, tables
+from replicated_lifts import wrist_paths
 from wall_reaches import np, rc, read_reaches
 
 # ---------------------------------------------------------------- figures
@@ -70,7 +71,7 @@ def main():
         sys.exit(f"{arguments.mocap} holds reaches of {len(people)} participants, expected at least 3")
     text = f"{len(reaches)} reaches of {len(people)} participants: {', '.join(people)}\n"
     print(text)
-    for title, rows in tables(reaches):
+    for title, rows in tables(reaches, wrist_paths(arguments.mocap)):
         part = f"\n{title}\n\n{markdown(rows)}"
         print(part, flush=True)
         text += part
