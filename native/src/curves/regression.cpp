@@ -66,7 +66,8 @@ LinearFit::LinearFit(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& resp
                                 "' follows from the others");
   }
   const Eigen::VectorXd back = size.cwiseInverse();
-  coefficients_ = back.asDiagonal() * qr.solve(responses);
+  coefficients_ = Eigen::MatrixXd::Zero(x.cols(), responses.cols());
+  if (responses.cols() > 0) coefficients_ = back.asDiagonal() * qr.solve(responses);
   const Eigen::MatrixXd root = qr.matrixR().topRows(x.cols()).triangularView<Eigen::Upper>().solve(
       Eigen::MatrixXd::Identity(x.cols(), x.cols()));
   const Eigen::MatrixXd spread = back.asDiagonal() * (qr.colsPermutation() * root);
@@ -104,6 +105,7 @@ Eigen::MatrixXd LinearFit::left_out_residuals(const Members& groups) const {
                                   " the others leave a coefficient open");
     }
     const Eigen::MatrixXd inside = residuals_.rows(group, Eigen::all);
+    if (inside.cols() == 0) continue;  // a straight line has no offsets to learn
     const Eigen::MatrixXd outside = qr.solve(inside);
     rows(group, Eigen::all) = outside;
   }

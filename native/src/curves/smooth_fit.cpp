@@ -28,7 +28,8 @@ SmoothFit::SmoothFit(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& resp
   factor_.compute(kernels + ridge * Eigen::MatrixXd::Identity(n, n));
   centre_ = responses.colwise().mean().transpose();
   const Eigen::MatrixXd deviations = responses.rowwise() - centre_.transpose();
-  weights_ = factor_.solve(deviations);
+  weights_ = Eigen::MatrixXd::Zero(n, deviations.cols());
+  if (deviations.cols() > 0) weights_ = factor_.solve(deviations);  // a straight line has no offsets to learn
   reach_ = weights_.cwiseProduct(kernels * weights_).colwise().sum().cwiseMax(0.0).cwiseSqrt().transpose();
   // Residuals are y - K w = ridge w; the trace of K (K + ridge I)^-1 is n less ridge times that of the inverse.
   const Eigen::MatrixXd inverse_root = factor_.matrixL().solve(Eigen::MatrixXd::Identity(n, n));
@@ -43,6 +44,7 @@ Eigen::MatrixXd SmoothFit::left_out_residuals(const Members& groups) const {
   for (const std::vector<Eigen::Index>& group : groups) {
     const Eigen::MatrixXd columns = root(Eigen::all, group);
     const Eigen::MatrixXd weights = weights_(group, Eigen::all);
+    if (weights.cols() == 0) continue;
     const Eigen::MatrixXd outside = (columns.transpose() * columns).llt().solve(weights);
     rows(group, Eigen::all) = outside;
   }

@@ -65,6 +65,21 @@ TEST(HandPathCovariates, OneLabelGivesTheMeansOfTheGroups) {
   EXPECT_EQ(model.residuals().freedom, 21.0);
 }
 
+TEST(HandPathCovariates, WithoutCovariatesEveryTrendIsTheNullModel) {
+  const Reaches all = made_reaches(12, 2, 6);
+  const Points mean = HandPathModel::fit(all.paths).predict(Vec3(0.0), Vec3(0.2, 0.5, 0.1)).control;
+  for (const Trend trend : {Trend::linear, Trend::quadratic, Trend::smooth}) {
+    HandPathFit options;
+    options.trend = trend;
+    const HandPathModel model = HandPathModel::fit(all.paths, options);
+    EXPECT_LT(largest_distance(model.predict(Vec3(0.0), Vec3(0.2, 0.5, 0.1)).control, mean), kRounding);
+    options.form.degree = 1;
+    options.people = all.people;
+    const HandPathModel line = HandPathModel::fit(all.paths, options);
+    EXPECT_EQ(line.predict(Vec3(0.0), Vec3(1.0)).control, (Points{Vec3(0.0), Vec3(1.0)}));
+  }
+}
+
 TEST(HandPathCovariates, ALinearDependenceIsFoundAgain) {
   const Reaches all = made_reaches(2, 1, 200, 0.0, 1e-4);
   HandPathFit options;
