@@ -28,8 +28,11 @@ def median_reach(reaches, target):
 
 
 def draw_figures(folder, reaches):
-    # The library of figures is asked for here only: without it the tables can still be printed.
-    import hand_path_figures as figures
+    # The library of figures is asked for here only: without it the tables are still there.
+    try:
+        import hand_path_figures as figures
+    except ImportError as missing:
+        sys.exit(f"{missing}: the tables are written, but the figures need Debian's python3-matplotlib")
 
     _, options, posture = CHOSEN
     target = max(reaches, key=lambda reach: np.linalg.norm(reach.end - reach.start)).target

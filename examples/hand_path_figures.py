@@ -123,6 +123,7 @@ def rose_diagrams(folder, reaches):
         axis.set_theta_zero_location("N")
         axis.set_theta_direction(-1)
         axis.set_yticks([])
+        axis.set_axisbelow(True)
         axis.set_title(title, pad=14)
     title = f"Directions from above, 0 is forward, 90 to the right; {len(reaches)} reaches"
     return save(figure, folder, "rose_diagrams.png", title)
