@@ -6,10 +6,10 @@
 #   build_release TARGET    configures where needed and builds a target of the release preset
 
 RUN_PACKAGES=(
-  g++ cmake ninja-build python3-dev pybind11-dev libeigen3-dev libglm-dev libsqlite3-dev libgtest-dev libbenchmark-dev
-  blender python3 python3-numpy ffmpeg fonts-dejavu-core libegl1 libgl1-mesa-dri
+  g++ cmake ninja-build python3-dev pybind11-dev libeigen3-dev libglm-dev libboost-dev libsqlite3-dev libgtest-dev
+  libbenchmark-dev blender python3 python3-numpy ffmpeg fonts-dejavu-core libegl1 libgl1-mesa-dri
 )
-TEST_PACKAGES=(python3-pytest xvfb xauth)
+TEST_PACKAGES=(python3-pytest python3-scipy python3-matplotlib xvfb xauth)
 
 fail() {
   echo "$*" >&2

@@ -12,6 +12,8 @@ PYBIND11_MODULE(reachcast_core, m) {
   bind_body(m);
   bind_posture(m);
   bind_curves(m);
+  bind_hand_path(m);
+  bind_variation(m);
   bind_mocap(m);
   bind_corpus(m);
   bind_predict(m);

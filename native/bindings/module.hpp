@@ -7,6 +7,8 @@
 void bind_body(pybind11::module_& m);
 void bind_posture(pybind11::module_& m);
 void bind_curves(pybind11::module_& m);
+void bind_hand_path(pybind11::module_& m);
+void bind_variation(pybind11::module_& m);
 void bind_mocap(pybind11::module_& m);
 void bind_corpus(pybind11::module_& m);
 void bind_predict(pybind11::module_& m);

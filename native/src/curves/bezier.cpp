@@ -2,6 +2,7 @@
 #include "reachcast/curves/bezier.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -37,22 +38,19 @@ void require_unit(std::span<const double> values, const char* name) {
   }
 }
 
+void require_times(std::span<const double> times, std::size_t count) {
+  if (times.size() != count) {
+    throw std::invalid_argument("times has " + std::to_string(times.size()) + " values, expected " +
+                                std::to_string(count) + ", one per point");
+  }
+  require_unit(times, "times");
+}
+
 void require_control(std::span<const Vec3> control) {
   require_points(control, "control");
   if (control.size() <= std::size_t{kMaxBezierDegree} + 1) return;
   throw std::invalid_argument("control has " + std::to_string(control.size()) + " points, expected at most " +
                               std::to_string(kMaxBezierDegree + 1));
-}
-
-/// Bernstein polynomials B_1 ... B_{d-1} at s: B_i = binomial(d, i) s^i (1-s)^(d-i) (2007, section 3.1).
-Eigen::RowVectorXd inner_bernstein(double s, int degree) {
-  Eigen::RowVectorXd row(degree - 1);
-  double binomial = 1.0;
-  for (int i = 1; i < degree; ++i) {
-    binomial = binomial * (degree - i + 1) / i;
-    row[i - 1] = binomial * std::pow(s, i) * std::pow(1.0 - s, degree - i);
-  }
-  return row;
 }
 
 Vec3 de_casteljau(std::span<const Vec3> control, double s) {
@@ -77,6 +75,25 @@ std::vector<double> arc_length_times(std::span<const Vec3> points) {
   return times;
 }
 
+std::vector<double> even_times(std::size_t count) {
+  if (count < 2) throw std::invalid_argument("count is " + std::to_string(count) + ", expected at least 2");
+  std::vector<double> times(count);
+  for (std::size_t i = 0; i < count; ++i) times[i] = static_cast<double>(i) / static_cast<double>(count - 1);
+  return times;
+}
+
+Eigen::RowVectorXd bernstein(double s, int degree) {
+  require_degree(degree);
+  require_unit(std::span<const double>(&s, 1), "s");
+  Eigen::RowVectorXd row(degree + 1);
+  double binomial = 1.0;
+  for (int i = 0; i <= degree; ++i) {
+    row[i] = binomial * std::pow(s, i) * std::pow(1.0 - s, degree - i);
+    binomial = binomial * (degree - i) / (i + 1);
+  }
+  return row;
+}
+
 Points axis_points(const Vec3& start, const Vec3& end, int degree) {
   require_degree(degree);
   Points points;
@@ -92,11 +109,7 @@ Points fit_bezier(std::span<const Vec3> points, int degree) {
 Points fit_bezier(std::span<const Vec3> points, std::span<const double> times, int degree) {
   require_points(points, "points");
   require_degree(degree);
-  if (times.size() != points.size()) {
-    throw std::invalid_argument("times has " + std::to_string(times.size()) + " values, expected " +
-                                std::to_string(points.size()) + ", one per point");
-  }
-  require_unit(times, "times");
+  require_times(times, points.size());
   Points control = axis_points(points.front(), points.back(), degree);
   const auto inner = static_cast<Eigen::Index>(points.size()) - 2;
   if (degree == 1 || inner == 0) return control;
@@ -106,7 +119,7 @@ Points fit_bezier(std::span<const Vec3> points, std::span<const double> times, i
   Eigen::MatrixXd deviation(inner, 3);
   for (Eigen::Index i = 0; i < inner; ++i) {
     const auto k = static_cast<std::size_t>(i) + 1;
-    basis.row(i) = inner_bernstein(times[k], degree);
+    basis.row(i) = bernstein(times[k], degree).segment(1, degree - 1);
     const Vec3 line = (1.0 - times[k]) * points.front() + times[k] * points.back();
     deviation.row(i) = to_eigen(points[k] - line).transpose();
   }
@@ -131,6 +144,15 @@ Points eval_bezier(std::span<const Vec3> control, std::span<const double> s) {
   points.reserve(s.size());
   for (const double value : s) points.push_back(de_casteljau(control, value));
   return points;
+}
+
+double maximum_error(std::span<const Vec3> points, std::span<const double> times, std::span<const Vec3> control) {
+  require_points(points, "points");
+  require_times(times, points.size());
+  const Points curve = eval_bezier(control, times);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) largest = std::max(largest, glm::length(points[i] - curve[i]));
+  return largest;
 }
 
 }  // namespace reachcast

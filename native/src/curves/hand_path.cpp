@@ -1,69 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reachcast/curves/hand_path.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <random>
 #include <stdexcept>
-#include <string>
 
 #include "reachcast/curves/bezier.hpp"
+#include "reachcast/curves/distributions.hpp"
+#include "reachcast/curves/normal_numbers.hpp"
 
 namespace reachcast {
 
 namespace {
 
-// A pivot smaller than this share of its variance is what rounding leaves of zero.
-constexpr double kPivotTolerance = 1e-12;
+constexpr const char* kDisplacement = "displacement";
+constexpr const char* kDistance = "distance";
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument(what);
 }
 
-double scale_of(OffsetScaling scaling, double distance_m, std::optional<double> duration_s) {
-  if (scaling == OffsetScaling::distance) return distance_m;
-  if (!duration_s) refuse("duration is missing, a model scaled by distance and time needs it");
-  if (!std::isfinite(*duration_s) || *duration_s <= 0.0) {
-    refuse("duration is " + std::to_string(*duration_s) + " s, expected a finite number > 0");
-  }
-  return std::sqrt(*duration_s * distance_m);
-}
-
-Vec3 for_hand(const Vec3& right_hand_offset, Hand hand) {
-  const Vec3& offset = right_hand_offset;
-  return hand == Hand::right ? offset : Vec3(-offset.x, offset.y, offset.z);
-}
-
-/// Y_i = (P_i - A_i) / scale for the inner control points (2007, sections 3.3 and 4), stacked.
-Eigen::VectorXd scaled_offsets(const Points& path, const HandPathFit& options, std::optional<double> duration_s) {
-  const Points control = fit_bezier(path, options.degree);
-  const Points axis = axis_points(path.front(), path.back(), options.degree);
-  const double distance_m = glm::length(path.back() - path.front());
-  if (distance_m < kMinimumReach_m) {
-    refuse("starts and ends " + std::to_string(distance_m) + " m apart, expected at least " +
-           std::to_string(kMinimumReach_m) + " m");
-  }
-  const double scale = scale_of(options.scaling, distance_m, duration_s);
-  Eigen::VectorXd offsets(3 * (options.degree - 1));
-  for (int i = 1; i < options.degree; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    offsets.segment<3>(Eigen::Index{3} * (i - 1)) = to_eigen(for_hand((control[k] - axis[k]) / scale, options.hand));
-  }
-  return offsets;
-}
-
 /// One row of scaled offsets per path.
 Eigen::MatrixXd offset_rows(std::span<const Points> paths, const HandPathFit& options) {
-  const bool timed = options.scaling == OffsetScaling::distance_time;
+  const bool timed = options.form.scaling == OffsetScaling::distance_time;
   if (timed && options.durations_s.size() != paths.size()) {
     refuse("durations has " + std::to_string(options.durations_s.size()) + " values, expected " +
            std::to_string(paths.size()) + ", one per path");
   }
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(paths.size()), 3 * (options.degree - 1));
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(paths.size()), options.form.size());
   for (std::size_t i = 0; i < paths.size(); ++i) {
     try {
       std::optional<double> duration_s;
       if (timed) duration_s = options.durations_s[i];
-      rows.row(static_cast<Eigen::Index>(i)) = scaled_offsets(paths[i], options, duration_s).transpose();
+      const Points control = fit_bezier(paths[i], options.form.degree);
+      rows.row(static_cast<Eigen::Index>(i)) = offsets_of(control, options.form, options.hand, duration_s).transpose();
     } catch (const std::invalid_argument& error) {
       refuse("paths[" + std::to_string(i) + "]: " + error.what());
     }
@@ -71,38 +41,80 @@ Eigen::MatrixXd offset_rows(std::span<const Points> paths, const HandPathFit& op
   return rows;
 }
 
-/// L with L L^T = covariance, which may have no full rank (few paths): a direction without variance gets none. Unlike
-/// an eigenvector basis, L does not depend on how a machine rounds.
-Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance) {
-  const Eigen::Index n = covariance.rows();
-  Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(n, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    double pivot = covariance(j, j);
-    for (Eigen::Index k = 0; k < j; ++k) pivot -= factor(j, k) * factor(j, k);
-    if (pivot <= kPivotTolerance * covariance(j, j)) continue;
-    factor(j, j) = std::sqrt(pivot);
-    for (Eigen::Index i = j + 1; i < n; ++i) {
-      double rest = covariance(i, j);
-      for (Eigen::Index k = 0; k < j; ++k) rest -= factor(i, k) * factor(j, k);
-      factor(i, j) = rest / factor(j, j);
-    }
+/// Given covariates as those of a right hand, with what the ends of the paths say.
+std::vector<Covariate> with_geometry(const std::vector<Covariate>& given, const Points& displacements, Hand hand,
+                                     bool displacement, bool distance) {
+  std::vector<Covariate> all;
+  if (displacement) all.push_back({kDisplacement, displacements});
+  if (distance) {
+    std::vector<double> distances;
+    for (const Vec3& vector : displacements) distances.push_back(glm::length(vector));
+    all.push_back({kDistance, std::move(distances)});
   }
-  return factor;
+  for (const Covariate& covariate : given) {
+    if (covariate.name == kDisplacement || covariate.name == kDistance) {
+      refuse("covariates['" + covariate.name + "'] is a name that the model fills in itself");
+    }
+    all.push_back(covariate);
+  }
+  for (Covariate& covariate : all) {
+    auto* const vectors = std::get_if<Points>(&covariate.values);
+    if (!vectors) continue;
+    for (Vec3& vector : *vectors) vector = for_hand(vector, hand);
+  }
+  return all;
 }
 
-/// Independent standard normal numbers (Box and Muller). The standard fixes the bits of mt19937_64 but not what
-/// std::normal_distribution makes of them.
-Eigen::VectorXd normal_numbers(std::uint64_t seed, Eigen::Index count) {
-  std::mt19937_64 bits(seed);
-  const auto uniform = [&] { return static_cast<double>(bits() >> 11) * 0x1.0p-53; };  // [0, 1)
-  Eigen::VectorXd numbers(count);
-  for (Eigen::Index i = 0; i < count; i += 2) {
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-    const double angle = 2.0 * kPi * uniform();
-    numbers[i] = radius * std::cos(angle);
-    if (i + 1 < count) numbers[i + 1] = radius * std::sin(angle);
+double standard_deviation(const Eigen::VectorXd& values) {
+  return std::sqrt((values.array() - values.mean()).square().mean());
+}
+
+/// For each column of a design the difference over which reaches stay alike.
+Eigen::VectorXd column_lengths(const Design& design, const Eigen::MatrixXd& rows, const HandPathFit& options) {
+  Eigen::VectorXd lengths(design.columns());
+  for (const auto& entry : options.lengths) {
+    const auto named = [&](const Term& term) { return term.name == entry.first; };
+    if (std::none_of(design.terms().begin(), design.terms().end(), named)) {
+      refuse("lengths['" + entry.first + "'] is not the name of a covariate");
+    }
   }
-  return numbers;
+  for (const Term& term : design.terms()) {
+    const auto given = options.lengths.find(term.name);
+    double length = 1.0;
+    if (given != options.lengths.end()) {
+      length = given->second;
+    } else if (term.kind == CovariateKind::vector) {
+      length = kVectorLength_m;
+    } else if (term.kind == CovariateKind::number) {
+      const double deviation = standard_deviation(rows.col(term.first));
+      if (deviation > 0.0) length = deviation;
+    }
+    if (!(length > 0.0 && std::isfinite(length))) {
+      refuse("lengths['" + term.name + "'] is " + std::to_string(length) + ", expected a finite number > 0");
+    }
+    lengths.segment(term.first, term.count).setConstant(length);
+  }
+  return lengths;
+}
+
+std::variant<LinearFit, SmoothFit> fit_trend(const Design& design, const Eigen::MatrixXd& rows,
+                                             const Eigen::MatrixXd& offsets, const HandPathFit& options) {
+  if (options.trend != Trend::smooth) return LinearFit(rows, offsets, design.column_names());
+  return SmoothFit(rows, offsets, column_lengths(design, rows, options), options.ridge);
+}
+
+/// Which paths each person made, in order of the names.
+Members paths_of_people(const std::vector<std::string>& people, std::size_t paths) {
+  if (people.size() != paths) {
+    refuse("people has " + std::to_string(people.size()) + " values, expected " + std::to_string(paths) +
+           ", one per path");
+  }
+  std::map<std::string, std::vector<Eigen::Index>> made;
+  for (std::size_t i = 0; i < paths; ++i) made[people[i]].push_back(static_cast<Eigen::Index>(i));
+  if (made.size() < 2) refuse("people has 1 different name, expected at least 2 to learn one from the others");
+  Members members;
+  for (auto& person : made) members.push_back(std::move(person.second));
+  return members;
 }
 
 }  // namespace
@@ -115,58 +127,122 @@ Points HandPath::positions(std::span<const double> t) const {
 }
 
 HandPathModel HandPathModel::published() {
-  HandPathModel model;
-  model.offsets_.resize(6);
-  model.offsets_ << -0.025, -0.148, 0.077, -0.015, -0.139, -0.002;  // 2007, section 4, after Table 2
-  return model;
+  Eigen::VectorXd mean(6);
+  mean << -0.025, -0.148, 0.077, -0.015, -0.139, -0.002;  // 2007, section 4, after Table 2
+  return {OffsetForm{}, SpeedProfile{}, LinearFit(mean)};
+}
+
+HandPathModel HandPathModel::flash_hogan() {
+  return {OffsetForm{.degree = 1}, SpeedProfile::flash_hogan(), LinearFit(Eigen::VectorXd())};
 }
 
 HandPathModel HandPathModel::fit(std::span<const Points> paths, const HandPathFit& options) {
   if (paths.empty()) refuse("paths is empty, expected at least 1 path");
-  if (options.degree < 1 || options.degree > kMaxBezierDegree) {
-    refuse("degree is " + std::to_string(options.degree) + ", expected 1 to " + std::to_string(kMaxBezierDegree));
-  }
+  options.form.require_valid();
   (void)options.speed.progress(0.5);  // throws for exponents out of range
-  const Eigen::MatrixXd rows = offset_rows(paths, options);
-  HandPathModel model;
-  model.scaling_ = options.scaling;
-  model.speed_ = options.speed;
-  model.offsets_ = rows.colwise().mean().transpose();
-  if (rows.rows() >= 2) {
-    const Eigen::MatrixXd residuals = rows.rowwise() - model.offsets_.transpose();
-    model.covariance_ = residuals.transpose() * residuals / static_cast<double>(rows.rows() - 1);
+  const Eigen::MatrixXd offsets = offset_rows(paths, options);
+  Points displacements;
+  for (const Points& path : paths) displacements.push_back(path.back() - path.front());
+  const std::vector<Covariate> covariates =
+      with_geometry(options.covariates, displacements, options.hand, options.displacement, options.distance);
+  Design design(covariates, options.trend == Trend::quadratic);
+  const Eigen::MatrixXd rows = design.rows(covariates, paths.size());
+  HandPathModel model(options.form, options.speed, fit_trend(design, rows, offsets, options));
+  if (!options.people.empty()) {
+    const Members members = paths_of_people(options.people, paths.size());
+    model.residuals_.rows =
+        std::visit([&](const auto& trend) { return trend.left_out_residuals(members); }, model.trend_);
+    const Eigen::MatrixXd& rows_left_out = model.residuals_.rows;
+    model.residuals_.covariance = rows_left_out.transpose() * rows_left_out / static_cast<double>(paths.size());
   }
+  model.design_ = std::move(design);
+  model.displacement_ = options.displacement;
+  model.distance_ = options.distance;
   return model;
 }
 
-HandPath HandPathModel::predict(const Vec3& start, const Vec3& end, Hand hand, std::optional<double> duration_s) const {
-  return place(offsets_, start, end, hand, duration_s);
+Eigen::RowVectorXd HandPathModel::row(const Vec3& start, const Vec3& end, const ReachDetails& details) const {
+  if (!is_finite(start)) refuse("start is not finite");
+  if (!is_finite(end)) refuse("end is not finite");
+  return design_.rows(with_geometry(details.covariates, {end - start}, details.hand, displacement_, distance_), 1);
 }
 
-HandPath HandPathModel::sample(const Vec3& start, const Vec3& end, std::uint64_t seed, Hand hand,
-                               std::optional<double> duration_s) const {
-  if (!covariance_) refuse("the model has no covariance to sample from: fit it to at least 2 paths");
-  const Eigen::VectorXd normals = normal_numbers(seed, offsets_.size());
-  return place(offsets_ + cholesky_factor(*covariance_) * normals, start, end, hand, duration_s);
+Eigen::VectorXd HandPathModel::mean(const Eigen::RowVectorXd& row) const {
+  return std::visit([&](const auto& trend) { return trend.mean(row); }, trend_);
+}
+
+const Eigen::MatrixXd& HandPathModel::required_covariance() const {
+  if (!covariance()) {
+    refuse("the model has no covariance: fit it to at least 2 paths, and to more paths than it has coefficients");
+  }
+  return *covariance();
+}
+
+HandPath HandPathModel::predict(const Vec3& start, const Vec3& end, const ReachDetails& details) const {
+  const Eigen::VectorXd offsets = mean(row(start, end, details));
+  return {control_of(offsets, form_, start, end, details.hand, details.duration_s), speed_};
+}
+
+HandPath HandPathModel::sample(const Vec3& start, const Vec3& end, std::uint64_t seed,
+                               const ReachDetails& details) const {
+  const Eigen::MatrixXd factor = cholesky_factor(required_covariance());
+  const Eigen::VectorXd offsets = mean(row(start, end, details)) + factor * normal_numbers(seed, form_.size());
+  return {control_of(offsets, form_, start, end, details.hand, details.duration_s), speed_};
+}
+
+// A point C(s) is linear in the offsets, so its variance along an axis is b^T V b, with the weights b = scale B_i(s)
+// and V the covariance of that axis's offsets: of the mean h S (h the leverage), of a new reach (1 + h) S.
+PathBand HandPathModel::band(const Vec3& start, const Vec3& end, std::span<const double> s, double level,
+                             const ReachDetails& details, bool of_one_reach) const {
+  if (!(level > 0.0 && level < 1.0)) {
+    refuse("level is " + std::to_string(level) + ", expected a number between 0 and 1");
+  }
+  const Eigen::MatrixXd& covariance = required_covariance();
+  const Eigen::RowVectorXd at = row(start, end, details);
+  const double leverage = std::visit([&](const auto& trend) { return trend.leverage(at); }, trend_);
+  const double spread = std::sqrt((of_one_reach ? 1.0 : 0.0) + leverage) *
+                        student_t_quantile(0.5 * (1.0 + level), residuals().freedom) *
+                        offset_scale(form_, glm::length(end - start), details.duration_s);
+  PathBand band{eval_bezier(predict(start, end, details).control, s), {}};
+  for (const double value : s) {
+    const Eigen::RowVectorXd weights = bernstein(value, degree()).segment(1, degree() - 1);
+    Eigen::Vector3d variance = Eigen::Vector3d::Zero();
+    for (Eigen::Index i = 0; i < weights.size(); ++i) {
+      for (Eigen::Index j = 0; j < weights.size(); ++j) {
+        variance += weights[i] * weights[j] * covariance.block<3, 3>(3 * i, 3 * j).diagonal();
+      }
+    }
+    band.half_width.push_back(spread * to_glm(variance.cwiseMax(0.0).cwiseSqrt()));
+  }
+  return band;
+}
+
+std::optional<double> HandPathModel::deviation_bound(double distance_m, std::optional<double> duration_s) const {
+  if (!(distance_m >= 0.0 && std::isfinite(distance_m))) {
+    refuse("distance is " + std::to_string(distance_m) + ", expected a finite number >= 0");
+  }
+  const auto* smooth = std::get_if<SmoothFit>(&trend_);
+  if (!smooth && design_.columns() > 0) return std::nullopt;
+  const double scale = offset_scale(form_, distance_m, duration_s);
+  const Vec3 start(0.0), end(distance_m, 0.0, 0.0);
+  const Points origins = offset_origins(form_, start, end), axis = axis_points(start, end, degree());
+  const Points centre = offsets();
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < centre.size(); ++i) {
+    double offset = glm::length(centre[i]);
+    if (smooth) offset += smooth->reach().segment<3>(3 * static_cast<Eigen::Index>(i)).norm();
+    farthest = std::max(farthest, scale * offset + glm::length(origins[i] - axis[i + 1]));
+  }
+  return (1.0 - std::pow(2.0, 1 - degree())) * farthest;
 }
 
 Points HandPathModel::offsets() const {
+  const auto* smooth = std::get_if<SmoothFit>(&trend_);
+  if (!smooth && design_.columns() > 0) refuse("the offsets depend on covariates: predict a path instead");
+  const Eigen::VectorXd mean = smooth ? smooth->centre() : linear()->mean(Eigen::RowVectorXd());
   Points points;
-  for (Eigen::Index i = 0; i < offsets_.size(); i += 3) points.push_back(to_glm(offsets_.segment<3>(i)));
+  for (Eigen::Index i = 0; i < mean.size(); i += 3) points.push_back(to_glm(mean.segment<3>(i)));
   return points;
-}
-
-HandPath HandPathModel::place(const Eigen::VectorXd& offsets, const Vec3& start, const Vec3& end, Hand hand,
-                              std::optional<double> duration_s) const {
-  if (!is_finite(start)) refuse("start is not finite");
-  if (!is_finite(end)) refuse("end is not finite");
-  const double scale = scale_of(scaling_, glm::length(end - start), duration_s);
-  HandPath path{axis_points(start, end, degree()), speed_};
-  for (int i = 1; i < degree(); ++i) {
-    const Vec3 offset = to_glm(offsets.segment<3>(Eigen::Index{3} * (i - 1)));
-    path.control[static_cast<std::size_t>(i)] += scale * for_hand(offset, hand);
-  }
-  return path;
 }
 
 }  // namespace reachcast

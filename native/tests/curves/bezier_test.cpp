@@ -147,6 +147,36 @@ TEST(Bezier, FitCommutesWithRigidMotionAndScale) {
   EXPECT_LT(largest_distance(fit_bezier(moved(points)), moved(fit_bezier(points))), 1e-11);
 }
 
+TEST(Bezier, BernsteinPolynomialsAreTheWeightsOfControlPoints) {
+  for (int degree = 1; degree <= kMaxBezierDegree; ++degree) {
+    for (const double s : {0.0, 0.2, 0.5, 0.93, 1.0}) {
+      const Eigen::RowVectorXd row = bernstein(s, degree);
+      EXPECT_NEAR(row.sum(), 1.0, kRounding);
+      for (int i = 0; i <= degree; ++i) {
+        Points unit(static_cast<std::size_t>(degree) + 1, Vec3(0.0));
+        unit[static_cast<std::size_t>(i)].y = 1.0;
+        EXPECT_NEAR(row[i], bernstein_sum(unit, s).y, kRounding);
+      }
+    }
+  }
+}
+
+TEST(Bezier, TheMaximumErrorIsTheLargestMiss) {
+  std::mt19937_64 random(6);
+  const Points points = random_points(random, 30), control = random_points(random, 4);
+  const std::vector<double> times = random_times(random, 30);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < 30; ++i) {
+    largest = std::max(largest, glm::length(points[i] - bernstein_sum(control, times[i])));
+  }
+  EXPECT_NEAR(maximum_error(points, times, control), largest, kRounding);
+}
+
+TEST(Bezier, EvenTimesIgnoreWhereThePointsLie) {
+  EXPECT_EQ(even_times(5), (std::vector<double>{0.0, 0.25, 0.5, 0.75, 1.0}));
+  EXPECT_THROW((void)even_times(1), std::invalid_argument);
+}
+
 TEST(Bezier, ArcLengthTimesAreRelativeDistances) {
   const Points points{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 2, 0}, {1, 2, 1}};
   EXPECT_EQ(arc_length_times(points), (std::vector<double>{0.0, 0.25, 0.25, 0.75, 1.0}));

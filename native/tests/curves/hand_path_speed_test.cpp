@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "reachcast/curves/distributions.hpp"
+
 namespace reachcast {
 namespace {
 

@@ -89,10 +89,10 @@ TEST(HandPath, OnePathIsReproducedBetweenItsOwnEnds) {
   const std::vector<Points> paths = random_paths(2, 1);
   for (const OffsetScaling scaling : {OffsetScaling::distance, OffsetScaling::distance_time}) {
     HandPathFit options;
-    options.scaling = scaling;
+    options.form.scaling = scaling;
     options.durations_s = {1.3};
     const HandPathModel model = HandPathModel::fit(paths, options);
-    const HandPath path = model.predict(paths[0].front(), paths[0].back(), Hand::right, 1.3);
+    const HandPath path = model.predict(paths[0].front(), paths[0].back(), {Hand::right, 1.3, {}});
     EXPECT_LT(largest_distance(path.control, fit_bezier(paths[0])), kRounding);
   }
 }
@@ -101,12 +101,12 @@ TEST(HandPath, DeviationGrowsWithDistanceOrWithTheRootOfDistanceAndTime) {
   const std::vector<Points> paths = random_paths(3, 5);
   const auto deviation = [&](const HandPathModel& model, double distance, double duration) {
     const Vec3 end(0.0, distance, 0.0);
-    return glm::length(model.predict(Vec3(0.0), end, Hand::right, duration).control[1] - end / 3.0);
+    return glm::length(model.predict(Vec3(0.0), end, {Hand::right, duration, {}}).control[1] - end / 3.0);
   };
   const HandPathModel by_distance = HandPathModel::fit(paths);
   EXPECT_NEAR(deviation(by_distance, 0.8, 1.0) / deviation(by_distance, 0.2, 3.0), 4.0, kRounding);
   HandPathFit options;
-  options.scaling = OffsetScaling::distance_time;
+  options.form.scaling = OffsetScaling::distance_time;
   options.durations_s = {1.0, 1.1, 1.2, 1.3, 1.4};
   const HandPathModel by_both = HandPathModel::fit(paths, options);
   EXPECT_NEAR(deviation(by_both, 0.8, 1.0) / deviation(by_both, 0.2, 4.0), 1.0, kRounding);
@@ -137,10 +137,10 @@ TEST(HandPath, TheLeftHandIsTheMirrorImage) {
   const HandPathModel left = HandPathModel::fit(left_paths, left_handed);
   EXPECT_LT(largest_distance(right.offsets(), left.offsets()), kRounding);
   for (const HandPathModel& model : {HandPathModel::published(), right}) {
-    const Points control = model.predict(mirror(kHome), mirror(kShelf), Hand::left).control;
+    const Points control = model.predict(mirror(kHome), mirror(kShelf), {Hand::left, {}, {}}).control;
     EXPECT_EQ(control, mapped(model.predict(kHome, kShelf).control, mirror));
   }
-  EXPECT_EQ(right.sample(mirror(kHome), mirror(kShelf), 9, Hand::left).control,
+  EXPECT_EQ(right.sample(mirror(kHome), mirror(kShelf), 9, {Hand::left, {}, {}}).control,
             mapped(right.sample(kHome, kShelf, 9).control, mirror));
 }
 
@@ -228,7 +228,7 @@ TEST(HandPath, AReachThatEndsWhereItStartsStandsStill) {
 TEST(HandPath, OtherDegreesWork) {
   for (const int degree : {1, 2, 4}) {
     HandPathFit options;
-    options.degree = degree;
+    options.form.degree = degree;
     const std::vector<Points> paths = random_paths(10, 3);
     const HandPathModel model = HandPathModel::fit(paths, options);
     EXPECT_EQ(model.degree(), degree);
@@ -251,7 +251,7 @@ TEST(HandPath, NamesThePathOrTheArgumentThatIsWrong) {
     return message_of([&] { return HandPathModel::fit(paths, options); });
   };
   HandPathFit timed;
-  timed.scaling = OffsetScaling::distance_time;
+  timed.form.scaling = OffsetScaling::distance_time;
   EXPECT_EQ(fit(timed), "durations has 0 values, expected 3, one per path");
   timed.durations_s = {1.0, 0.0, 1.0};
   EXPECT_EQ(fit(timed), "paths[1]: duration is 0.000000 s, expected a finite number > 0");
@@ -259,7 +259,7 @@ TEST(HandPath, NamesThePathOrTheArgumentThatIsWrong) {
   EXPECT_EQ(message_of([&] { return HandPathModel::fit(paths, timed).predict(kHome, kShelf); }),
             "duration is missing, a model scaled by distance and time needs it");
   HandPathFit options;
-  options.degree = 0;
+  options.form.degree = 0;
   EXPECT_EQ(fit(options), "degree is 0, expected 1 to 10");
   options = {};
   options.speed.alpha = -1.0;
