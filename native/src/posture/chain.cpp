@@ -65,6 +65,20 @@ void check_arguments(const std::vector<double>& lengths, const std::vector<std::
 
 }  // namespace
 
+Vec3 pivot_point(const Vec3& start, const Vec3& end, double proximal_m, double distal_m, const Vec3& normal) {
+  const double c = glm::distance(start, end);
+  if (c <= 1e-12) {
+    const Vec3 axis = any_perpendicular(usable_normal(normal, Vec3(0, 0, 1)));
+    return start + glm::cross(axis, usable_normal(normal, axis)) * proximal_m;
+  }
+  const Vec3 axis = (end - start) / c;
+  const double along = (c * c + (proximal_m - distal_m) * (proximal_m + distal_m)) / (2.0 * c);
+  const double gap = std::min(proximal_m + distal_m - c, c - std::abs(proximal_m - distal_m));
+  if (gap <= kFlat * (proximal_m + distal_m)) return start + axis * std::copysign(proximal_m, along);
+  const double height = std::sqrt(std::max(0.0, (proximal_m - along) * (proximal_m + along)));
+  return start + axis * along + glm::cross(axis, usable_normal(normal, axis)) * height;
+}
+
 Chain::Chain(std::vector<double> lengths, std::vector<std::size_t> pivots,
              const std::map<std::size_t, FlexionLimit>& limits)
     : lengths_(std::move(lengths)) {
@@ -152,16 +166,8 @@ void Chain::decode(const Vec3& start, const Vec3& end, std::span<const double> c
     } else if (node.stretches == 1) {
       lp = domain.proximal_length(from_logit(in[0]));
     }
-    const Vec3 stored(in[node.stretches], in[node.stretches + 1], in[node.stretches + 2]);
-    const Vec3 axis = c > 1e-12 ? (b - a) / c : any_perpendicular(usable_normal(stored, Vec3(0, 0, 1)));
-    const double x = c > 1e-12 ? (c * c + (lp - ld) * (lp + ld)) / (2.0 * c) : 0.0;
-    const double gap = std::min(lp + ld - c, c - std::abs(lp - ld));
-    if (gap <= kFlat * (node.proximal_reach.hi + node.distal_reach.hi) && c > 1e-12) {
-      points[node.pivot] = a + axis * std::copysign(lp, x);
-    } else {
-      const double height = std::sqrt(std::max(0.0, (lp - x) * (lp + x)));
-      points[node.pivot] = a + axis * x + glm::cross(axis, usable_normal(stored, axis)) * height;
-    }
+    points[node.pivot] =
+        pivot_point(a, b, lp, ld, {in[node.stretches], in[node.stretches + 1], in[node.stretches + 2]});
   }
 }
 

@@ -30,6 +30,12 @@ struct FlexionLimit {
   double max_rad = kPi;
 };
 
+/// The pivot of two sides with these lengths between two given points, on the side of the plane with this normal, which
+/// need be neither orthogonal to the line between them nor of unit length. Where the sides cannot span the ends they
+/// are taken as straight.
+[[nodiscard]] Vec3 pivot_point(const Vec3& start, const Vec3& end, double proximal_m, double distal_m,
+                               const Vec3& normal);
+
 class Chain {
  public:
   /// `lengths`: n >= 1 positive link lengths, metres, at most 1e6. `pivots`: interior joints 1..n-1 in order of
