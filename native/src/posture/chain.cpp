@@ -147,28 +147,56 @@ void Chain::encode(std::span<const Vec3> points, std::span<double> coordinates) 
 
 void Chain::decode(const Vec3& start, const Vec3& end, std::span<const double> coordinates,
                    std::span<Vec3> points) const {
+  place_ends(start, end, points);
+  for (const Node& node : nodes_) decode_node(node, coordinates, points);
+}
+
+void Chain::decode(const Vec3& start, const Vec3& end, std::span<const double> coordinates,
+                   std::span<const std::size_t> steps, std::span<Vec3> points) const {
+  place_ends(start, end, points);
+  for (const std::size_t step : steps) decode_node(nodes_[step], coordinates, points);
+}
+
+std::vector<std::size_t> Chain::steps_to(std::span<const std::size_t> joints) const {
+  std::vector<bool> needed(nodes_.size());
+  for (std::size_t i = nodes_.size(); i-- > 0;) {  // children before parents
+    const Node& node = nodes_[i];
+    const auto is_needed = [&](int child) { return child >= 0 && needed[static_cast<std::size_t>(child)]; };
+    needed[i] = std::find(joints.begin(), joints.end(), node.pivot) != joints.end() || is_needed(node.proximal) ||
+                is_needed(node.distal);
+  }
+  std::vector<std::size_t> steps;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (needed[i]) steps.push_back(i);
+  }
+  return steps;
+}
+
+void Chain::place_ends(const Vec3& start, const Vec3& end, std::span<Vec3> points) const {
   const double across = glm::distance(start, end);
   if (!(across <= root_reach_.hi + kReachTolerance_m && across >= root_reach_.lo - kReachTolerance_m)) {
     fail("the ends are ", across, " m apart; the chain spans ", root_reach_.lo, " to ", root_reach_.hi, " m");
   }
   points[0] = start;
   points[links()] = end;
-  for (const Node& node : nodes_) {
-    const Vec3 a = points[node.first], b = points[node.last];
-    const double c = glm::distance(a, b);
-    const double* in = &coordinates[node.offset];
-    const StretchDomain domain(node.proximal_reach, node.distal_reach, c);
-    double lp = node.proximal_reach.hi, ld = node.distal_reach.hi;
+}
+
+void Chain::decode_node(const Node& node, std::span<const double> coordinates, std::span<Vec3> points) const {
+  const Vec3 a = points[node.first], b = points[node.last];
+  const double* in = &coordinates[node.offset];
+  double lp = node.proximal_reach.hi, ld = node.distal_reach.hi;
+  if (node.stretches > 0) {
+    const StretchDomain domain(node.proximal_reach, node.distal_reach, glm::distance(a, b));
     if (node.stretches == 2) {
       std::tie(lp, ld) = domain.lengths(from_logit(in[0]), from_logit(in[1]));
-    } else if (node.stretches == 1 && node.proximal < 0) {
+    } else if (node.proximal < 0) {
       ld = domain.distal_length(from_logit(in[0]));
-    } else if (node.stretches == 1) {
+    } else {
       lp = domain.proximal_length(from_logit(in[0]));
     }
-    points[node.pivot] =
-        pivot_point(a, b, lp, ld, {in[node.stretches], in[node.stretches + 1], in[node.stretches + 2]});
   }
+  const Vec3 normal(in[node.stretches], in[node.stretches + 1], in[node.stretches + 2]);
+  points[node.pivot] = pivot_point(a, b, lp, ld, normal);
 }
 
 }  // namespace reachcast

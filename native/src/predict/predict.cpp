@@ -122,6 +122,9 @@ std::optional<Failure> perform(const Performance& performance, double frame_rate
   motion.box.clear();
   motion.postures.clear();
   motion.times_s.clear();
+  motion.box.reserve(motion.plan.end + 1);
+  motion.postures.reserve(motion.plan.end + 1);
+  motion.times_s.reserve(motion.plan.end + 1);
   const Performance::Tracks tracks = performance.tracks();
   Correction trunk{"trunk", 0.0, 0.0, 0}, unbalanced{"unbalanced", 0.0, 0.0, 0};
   std::optional<Failure> worst;
@@ -130,7 +133,7 @@ std::optional<Failure> perform(const Performance& performance, double frame_rate
     HoldReport report;
     motion.times_s.push_back(moment / frame_rate);
     motion.box.push_back(performance.object(moment));
-    motion.postures.push_back(performance.posture(moment, tracks, report));
+    motion.postures.push_back(performance.posture(moment, motion.box.back(), tracks, report));
     if (report.shortfall_m > 0.0 && (!worst || is_worse(motion.plan, {frame, report}, *worst)))
       worst = Failure{frame, report};
     trunk.amount_m = std::max(trunk.amount_m, report.trunk_shift_m);

@@ -58,6 +58,12 @@ class Chain {
   /// reach() to within 1e-9 m (it is then clamped), or std::invalid_argument says by how much it does not.
   void decode(const Vec3& start, const Vec3& end, std::span<const double> coordinates, std::span<Vec3> points) const;
 
+  /// Which pivots must be placed, and in which order, to know where these interior joints are.
+  [[nodiscard]] std::vector<std::size_t> steps_to(std::span<const std::size_t> joints) const;
+  /// Only these steps; the other interior points stay as they are.
+  void decode(const Vec3& start, const Vec3& end, std::span<const double> coordinates,
+              std::span<const std::size_t> steps, std::span<Vec3> points) const;
+
  private:
   struct Node {
     std::size_t first = 0, pivot = 0, last = 0;  ///< joints
@@ -66,6 +72,8 @@ class Chain {
     std::size_t offset = 0;  ///< of the first coordinate: 0 to 2 logits, then the normal
     int stretches = 0;
   };
+  void decode_node(const Node& node, std::span<const double> coordinates, std::span<Vec3> points) const;
+  void place_ends(const Vec3& start, const Vec3& end, std::span<Vec3> points) const;
   int build(std::size_t first, std::size_t last, const std::vector<std::size_t>& order,
             const std::map<std::size_t, FlexionLimit>& limits, Interval& reach);
 
