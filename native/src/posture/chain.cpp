@@ -17,6 +17,7 @@ constexpr double kReachTolerance_m = 1e-9;  // decode clamps this much: rounding
 // A bend is the square root of a gap in the triangle inequality, so that rounding of 1e-16 would bend a straight or
 // folded chain by 1e-8. Gaps below this share of the chain's span count as none.
 constexpr double kFlat = 1e-13;
+constexpr double kUsualNormal = 1e-12;  // squares of normals, and of their parts, that leave no doubt
 
 template <class... Parts>
 [[noreturn]] void fail(const Parts&... parts) {
@@ -71,12 +72,20 @@ Vec3 pivot_point(const Vec3& start, const Vec3& end, double proximal_m, double d
     const Vec3 axis = any_perpendicular(usable_normal(normal, Vec3(0, 0, 1)));
     return start + glm::cross(axis, usable_normal(normal, axis)) * proximal_m;
   }
-  const Vec3 axis = (end - start) / c;
-  const double along = (c * c + (proximal_m - distal_m) * (proximal_m + distal_m)) / (2.0 * c);
-  const double gap = std::min(proximal_m + distal_m - c, c - std::abs(proximal_m - distal_m));
+  return pivot_point(start, (end - start) / c, c, proximal_m, distal_m, normal);
+}
+
+Vec3 pivot_point(const Vec3& start, const Vec3& axis, double across_m, double proximal_m, double distal_m,
+                 const Vec3& normal) {
+  const double along = (across_m * across_m + (proximal_m - distal_m) * (proximal_m + distal_m)) / (2.0 * across_m);
+  const double gap = std::min(proximal_m + distal_m - across_m, across_m - std::abs(proximal_m - distal_m));
   if (gap <= kFlat * (proximal_m + distal_m)) return start + axis * std::copysign(proximal_m, along);
-  const double height = std::sqrt(std::max(0.0, (proximal_m - along) * (proximal_m + along)));
-  return start + axis * along + glm::cross(axis, usable_normal(normal, axis)) * height;
+  const double height_squared = std::max(0.0, (proximal_m - along) * (proximal_m + along));
+  const Vec3 side = glm::cross(axis, normal);
+  const double whole = glm::dot(normal, normal), across = glm::dot(side, side);
+  if (whole > kUsualNormal && whole < 1.0 / kUsualNormal && across > kUsualNormal * whole)
+    return start + axis * along + side * std::sqrt(height_squared / across);
+  return start + axis * along + glm::cross(axis, usable_normal(normal, axis)) * std::sqrt(height_squared);
 }
 
 Chain::Chain(std::vector<double> lengths, std::vector<std::size_t> pivots,

@@ -26,7 +26,9 @@ SpannedLimb spanned_limb(const Chain& chain, const LimbPlane& plane, const Vec3&
   const double known = glm::length(plane.axis);
   const Vec3 normal = known > 1e-9 ? carried_along(plane.axis / known, axis, plane.normal) : plane.normal;
   const Vec3 reached = across == wanted ? end : root + axis * wanted;
-  return {pivot_point(root, reached, chain.lengths()[0], chain.lengths()[1], normal), reached};
+  const double upper = chain.lengths()[0], lower = chain.lengths()[1];
+  if (wanted <= 1e-9) return {pivot_point(root, reached, upper, lower, normal), reached};
+  return {pivot_point(root, axis, wanted, upper, lower, normal), reached};
 }
 
 void span_limb(const LimbSpec& limb, const Chain& chain, const LimbPlane& plane, const Vec3& end, Posture& posture) {

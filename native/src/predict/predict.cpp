@@ -45,11 +45,12 @@ double body_mass(const Subject& subject) {
 
 /// `recorded` holds at least one motion.
 std::vector<std::string> why_outside(const PhaseColumns& recorded, const Query& query) {
-  double target = 1e9, home = 1e9;
-  for (std::size_t i = 0; i < recorded.size(); ++i) {
-    target = std::min(target, glm::distance(recorded.target[i], query.target));
-    home = std::min(home, glm::distance(recorded.home[i], query.home));
-  }
+  const auto nearest = [](const std::vector<Vec3>& places, const Vec3& wanted) {
+    double square = 1e18;
+    for (const Vec3& place : places) square = std::min(square, glm::dot(place - wanted, place - wanted));
+    return std::sqrt(square);
+  };
+  const double target = nearest(recorded.target, query.target), home = nearest(recorded.home, query.home);
   std::vector<std::string> reasons;
   const auto add = [&](const auto&... parts) {
     std::ostringstream out;

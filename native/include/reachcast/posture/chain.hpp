@@ -35,6 +35,9 @@ struct FlexionLimit {
 /// are taken as straight.
 [[nodiscard]] Vec3 pivot_point(const Vec3& start, const Vec3& end, double proximal_m, double distal_m,
                                const Vec3& normal);
+/// The same for an end that lies `across_m` > 0 from the start in the direction `axis` of unit length.
+[[nodiscard]] Vec3 pivot_point(const Vec3& start, const Vec3& axis, double across_m, double proximal_m, double distal_m,
+                               const Vec3& normal);
 
 class Chain {
  public:
