@@ -17,21 +17,36 @@ namespace {
 
 using namespace reachcast;
 
-constexpr int kMotions = 3000;
+constexpr std::size_t kMotions = 3000;
+const std::vector<Phase> kFourPhases{Phase::transfer, Phase::return_, Phase::reach, Phase::retrieve};
 const Task kTask{.home = {0.0, 0.42, 0.0}, .target = {0.1, 0.42, 1.0}, .object = {}};
 const Subject kSubject{.stature_m = 1.72, .sex = {}, .age_years = {}, .mass_kg = {}};
 
-std::vector<MotionCode> varied_codes() {
+Reach made_motion(Phase phase) {
+  if (is_loaded(phase)) {
+    const Reach lift = tests::made_lift(1.72, {0.0, 0.42, 0.15}, {0.05, 0.42, 1.1});
+    return phase == Phase::transfer ? lift : reversed(lift);
+  }
+  Reach reach = tests::made_lift(1.72, {0.0, 0.32, 0.7}, {0.05, 0.42, 1.1});
+  reach.phase = Phase::reach;
+  return phase == Phase::reach ? reach : reversed(reach);
+}
+
+/// A corpus of `phases`, equally many motions of each.
+std::vector<MotionCode> varied_codes(const std::vector<Phase>& phases) {
   std::mt19937_64 random(2004);
   const auto between = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(random); };
-  const MotionCode made = encode_reach(tests::made_lift(1.72, {0.0, 0.42, 0.15}, {0.05, 0.42, 1.1}));
-  std::vector<MotionCode> codes(kMotions, made);
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    MotionCode& code = codes[i];
+  std::vector<MotionCode> made;
+  for (const Phase phase : phases) made.push_back(encode_reach(made_motion(phase)));
+  std::vector<MotionCode> codes;
+  for (std::size_t i = 0; i < kMotions; ++i) {
+    MotionCode& code = codes.emplace_back(made[i % made.size()]);
     code.origin = "made " + std::to_string(i);
     code.subject.stature_m = between(1.5, 1.95);
-    code.home = {between(-0.1, 0.1), between(0.35, 0.5), between(0.1, 0.9)};
-    code.target = {between(-0.4, 0.4), between(0.25, 0.5), between(0.4, 1.7)};
+    const Vec3 low(between(-0.1, 0.1), between(0.35, 0.5), between(0.1, 0.9));
+    const Vec3 high(between(-0.4, 0.4), between(0.25, 0.5), between(0.4, 1.7));
+    code.home = code.phase == Phase::retrieve || code.phase == Phase::return_ ? high : low;
+    code.target = code.phase == Phase::retrieve || code.phase == Phase::return_ ? low : high;
     code.duration_s = between(0.8, 2.0);
     for (double& value : code.coefficients) value *= between(0.98, 1.02);
   }
@@ -41,11 +56,11 @@ std::vector<MotionCode> varied_codes() {
 /// In a temporary folder that goes with the process.
 class BenchCorpus {
  public:
-  BenchCorpus() {
+  explicit BenchCorpus(const std::vector<Phase>& phases) {
     std::string pattern = (std::filesystem::temp_directory_path() / "reachcast-bench-XXXXXX").string();
     if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder at " + pattern);
     folder_ = pattern;
-    Corpus::create(folder_ / "bench.sqlite").add(varied_codes());
+    Corpus::create(folder_ / "bench.sqlite").add(varied_codes(phases));
     corpus.emplace(Corpus::open(folder_ / "bench.sqlite"));
   }
   ~BenchCorpus() {
@@ -61,7 +76,12 @@ class BenchCorpus {
 };
 
 const Corpus& bench_corpus() {
-  static const BenchCorpus bench;
+  static const BenchCorpus bench({Phase::transfer});
+  return *bench.corpus;
+}
+
+const Corpus& four_phase_corpus() {
+  static const BenchCorpus bench(kFourPhases);
   return *bench.corpus;
 }
 
@@ -73,6 +93,52 @@ void bm_predict(benchmark::State& state) {
   state.counters["frames"] = static_cast<double>(frames);
 }
 BENCHMARK(bm_predict)->Unit(benchmark::kMillisecond);
+
+/// The 2004 paper (p. 551) takes 0.01 s on an 850 MHz Pentium III for its motions. Here four phases of some 20 frames
+/// each, as one motion with its pauses, from 750 motions of each phase.
+void bm_predict_four_phases(benchmark::State& state) {
+  const Body body = Body::from_stature(1.72);
+  const Corpus& corpus = four_phase_corpus();
+  PredictOptions options;
+  options.frame_rate = 15.0;
+  options.phases = kFourPhases;
+  for (const Phase phase : kFourPhases) options.durations_s[phase] = 20.0 / options.frame_rate;
+  Motion motion;
+  for (auto _ : state) motion = predict(corpus, kSubject, kTask, body, options);
+  state.counters["frames"] = static_cast<double>(motion.postures.size());
+}
+BENCHMARK(bm_predict_four_phases)->Unit(benchmark::kMicrosecond);
+
+/// More frames of the same motion.
+void bm_predict_frames(benchmark::State& state) {
+  const Body body = Body::from_stature(1.72);
+  const Corpus& corpus = bench_corpus();
+  PredictOptions options;
+  options.frame_rate = static_cast<double>(state.range(0));
+  std::size_t frames = 0;
+  for (auto _ : state) frames = predict(corpus, kSubject, kTask, body, options).postures.size();
+  state.SetComplexityN(static_cast<benchmark::IterationCount>(frames));
+}
+BENCHMARK(bm_predict_frames)->RangeMultiplier(2)->Range(30, 960)->Complexity(benchmark::oN);
+
+/// A chain of so many links, its pivots halving it.
+void bm_decode_links(benchmark::State& state) {
+  const auto links = static_cast<std::size_t>(state.range(0));
+  std::vector<std::size_t> pivots;
+  for (std::size_t step = links / 2; step > 0; step /= 2) {
+    for (std::size_t joint = step; joint < links; joint += 2 * step) pivots.push_back(joint);
+  }
+  const Chain chain(std::vector<double>(links, 0.1), pivots);
+  const std::vector<double> coordinates(chain.coordinate_count(), 0.3);
+  Points points(links + 1);
+  const Vec3 end(0.05 * static_cast<double>(links), 0.0, 0.0);
+  for (auto _ : state) {
+    chain.decode(Vec3(0.0), end, coordinates, points);
+    benchmark::DoNotOptimize(points.data());
+  }
+  state.SetComplexityN(state.range(0));
+}
+BENCHMARK(bm_decode_links)->RangeMultiplier(2)->Range(4, 256)->Complexity(benchmark::oN);
 
 void bm_neighbours(benchmark::State& state) {
   const std::shared_ptr<const MotionTable> table = bench_corpus().table();

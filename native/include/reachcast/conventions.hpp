@@ -49,4 +49,12 @@ inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
   return glm::normalize(Quat(1.0 + cosine, cross.x, cross.y, cross.z));
 }
 
+/// A vector turned by the smallest rotation between two directions of unit length.
+[[nodiscard]] inline Vec3 carried_along(const Vec3& from, const Vec3& to, const Vec3& v) {
+  const double cosine = glm::dot(from, to);
+  if (cosine < -1.0 + 1e-9) return smallest_rotation(from, to) * v;
+  const Vec3 cross = glm::cross(from, to);  // Rodrigues' formula, the sine in `cross`
+  return cosine * v + glm::cross(cross, v) + glm::dot(cross, v) / (1.0 + cosine) * cross;
+}
+
 }  // namespace reachcast

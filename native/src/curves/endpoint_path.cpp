@@ -73,12 +73,23 @@ double progress(const EndpointPath& path, double t) {
 }
 
 Vec3 point_at(const EndpointPath& path, const Vec3& start, const Vec3& end, double t) {
+  return point_at(path, start, end, t, progress(path, t));
+}
+
+Vec3 point_at(const EndpointPath& path, const Vec3& start, const Vec3& end, double t, double progress) {
+  if (t <= 0.0) return start;
+  if (t >= 1.0) return end;
   const Vec3 axis = end - start;
   const double square = glm::dot(axis, axis);
-  const Vec3 off = to_glm((bspline_row(resting_time(t)).segment<kPathBasisCount>(1) * path.deviation).transpose());
+  const LocalBasis local = bspline_local(resting_time(t));
+  Vec3 off(0.0);
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    const Eigen::Index row = local.first + i - 1;  // the path has no first and no last basis function
+    if (row < 0 || row >= kPathBasisCount) continue;
+    for (int k = 0; k < 3; ++k) off[k] += local.values[static_cast<std::size_t>(i)] * path.deviation(row, k);
+  }
   const Vec3 radial = square > 1e-18 ? off - glm::dot(off, axis) / square * axis : off;
-  if (t >= 1.0) return end;
-  return start + progress(path, t) * axis + (t <= 0.0 ? Vec3(0.0) : radial);
+  return start + progress * axis + radial;
 }
 
 }  // namespace reachcast

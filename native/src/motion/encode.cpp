@@ -89,8 +89,20 @@ void set_path(MotionCode& code, const EndpointPath& path) {
 }
 
 Vec3 separation_at(const MotionCode& code, double t) {
-  const Eigen::Map<const Eigen::Matrix<double, kBasisCount, 3>> curves(code.coefficients.data() + kPathLength);
-  return to_glm((bspline_row(resting_time(t)) * curves).transpose());
+  const LocalBasis local = bspline_local(resting_time(t));
+  const double* curves = code.coefficients.data() + kPathLength + local.first;
+  Vec3 out(0.0);
+  for (int k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < local.values.size(); ++i)
+      out[k] += local.values[i] * curves[static_cast<std::size_t>(k * kBasisCount) + i];
+  }
+  return out;
+}
+
+PostureCurves posture_curves(const MotionCode& code) {
+  const Eigen::Index count = posture_coordinate_count(two_handed_linkage());
+  const double* start = code.coefficients.data() + kPostureStart;
+  return Eigen::Map<const Eigen::MatrixXd>(start, kBasisCount, count).transpose();
 }
 
 Eigen::VectorXd coordinates_at(const MotionCode& code, double t) {

@@ -29,20 +29,30 @@ constexpr std::array<Mass, 10> kMasses{{
 }};
 constexpr double kBehindAnkle_m = 0.03;
 
-}  // namespace
-
-Vec3 centre_of_mass(const Posture& posture, double body_mass_kg, const Load& load) {
-  Vec3 moment(0.0);
+/// Every joint's share of the whole, since a point between two joints is a mean of both. The shares add up to 1.
+std::array<double, kJointCount> joint_shares() {
+  std::array<double, kJointCount> shares{};
   double whole = 0.0;
   const auto add = [&](Joint from, Joint to, const Mass& m) {
-    moment += m.share * (posture[index(from)] + m.along * (posture[index(to)] - posture[index(from)]));
+    shares[index(from)] += m.share * (1.0 - m.along);
+    shares[index(to)] += m.share * m.along;
     whole += m.share;
   };
   for (const Mass& m : kMasses) {
     add(m.from, m.to, m);
     if (m.paired) add(mirrored(m.from), mirrored(m.to), m);
   }
-  return (moment / whole * body_mass_kg + load.centre * load.mass_kg) / (body_mass_kg + load.mass_kg);
+  for (double& share : shares) share /= whole;
+  return shares;
+}
+
+}  // namespace
+
+Vec3 centre_of_mass(const Posture& posture, double body_mass_kg, const Load& load) {
+  static const std::array<double, kJointCount> shares = joint_shares();
+  Vec3 centre(0.0);
+  for (std::size_t j = 0; j < kJointCount; ++j) centre += shares[j] * posture[j];
+  return (centre * body_mass_kg + load.centre * load.mass_kg) / (body_mass_kg + load.mass_kg);
 }
 
 Vec3 beyond_support(const Vec3& centre, const Anchors& feet) {

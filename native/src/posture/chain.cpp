@@ -17,6 +17,7 @@ constexpr double kReachTolerance_m = 1e-9;  // decode clamps this much: rounding
 // A bend is the square root of a gap in the triangle inequality, so that rounding of 1e-16 would bend a straight or
 // folded chain by 1e-8. Gaps below this share of the chain's span count as none.
 constexpr double kFlat = 1e-13;
+constexpr double kUsualNormal = 1e-12;  // squares of normals, and of their parts, that leave no doubt
 
 template <class... Parts>
 [[noreturn]] void fail(const Parts&... parts) {
@@ -64,6 +65,28 @@ void check_arguments(const std::vector<double>& lengths, const std::vector<std::
 }
 
 }  // namespace
+
+Vec3 pivot_point(const Vec3& start, const Vec3& end, double proximal_m, double distal_m, const Vec3& normal) {
+  const double c = glm::distance(start, end);
+  if (c <= 1e-12) {
+    const Vec3 axis = any_perpendicular(usable_normal(normal, Vec3(0, 0, 1)));
+    return start + glm::cross(axis, usable_normal(normal, axis)) * proximal_m;
+  }
+  return pivot_point(start, (end - start) / c, c, proximal_m, distal_m, normal);
+}
+
+Vec3 pivot_point(const Vec3& start, const Vec3& axis, double across_m, double proximal_m, double distal_m,
+                 const Vec3& normal) {
+  const double along = (across_m * across_m + (proximal_m - distal_m) * (proximal_m + distal_m)) / (2.0 * across_m);
+  const double gap = std::min(proximal_m + distal_m - across_m, across_m - std::abs(proximal_m - distal_m));
+  if (gap <= kFlat * (proximal_m + distal_m)) return start + axis * std::copysign(proximal_m, along);
+  const double height_squared = std::max(0.0, (proximal_m - along) * (proximal_m + along));
+  const Vec3 side = glm::cross(axis, normal);
+  const double whole = glm::dot(normal, normal), across = glm::dot(side, side);
+  if (whole > kUsualNormal && whole < 1.0 / kUsualNormal && across > kUsualNormal * whole)
+    return start + axis * along + side * std::sqrt(height_squared / across);
+  return start + axis * along + glm::cross(axis, usable_normal(normal, axis)) * std::sqrt(height_squared);
+}
 
 Chain::Chain(std::vector<double> lengths, std::vector<std::size_t> pivots,
              const std::map<std::size_t, FlexionLimit>& limits)
@@ -133,36 +156,56 @@ void Chain::encode(std::span<const Vec3> points, std::span<double> coordinates) 
 
 void Chain::decode(const Vec3& start, const Vec3& end, std::span<const double> coordinates,
                    std::span<Vec3> points) const {
+  place_ends(start, end, points);
+  for (const Node& node : nodes_) decode_node(node, coordinates, points);
+}
+
+void Chain::decode(const Vec3& start, const Vec3& end, std::span<const double> coordinates,
+                   std::span<const std::size_t> steps, std::span<Vec3> points) const {
+  place_ends(start, end, points);
+  for (const std::size_t step : steps) decode_node(nodes_[step], coordinates, points);
+}
+
+std::vector<std::size_t> Chain::steps_to(std::span<const std::size_t> joints) const {
+  std::vector<bool> needed(nodes_.size());
+  for (std::size_t i = nodes_.size(); i-- > 0;) {  // children before parents
+    const Node& node = nodes_[i];
+    const auto is_needed = [&](int child) { return child >= 0 && needed[static_cast<std::size_t>(child)]; };
+    needed[i] = std::find(joints.begin(), joints.end(), node.pivot) != joints.end() || is_needed(node.proximal) ||
+                is_needed(node.distal);
+  }
+  std::vector<std::size_t> steps;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (needed[i]) steps.push_back(i);
+  }
+  return steps;
+}
+
+void Chain::place_ends(const Vec3& start, const Vec3& end, std::span<Vec3> points) const {
   const double across = glm::distance(start, end);
   if (!(across <= root_reach_.hi + kReachTolerance_m && across >= root_reach_.lo - kReachTolerance_m)) {
     fail("the ends are ", across, " m apart; the chain spans ", root_reach_.lo, " to ", root_reach_.hi, " m");
   }
   points[0] = start;
   points[links()] = end;
-  for (const Node& node : nodes_) {
-    const Vec3 a = points[node.first], b = points[node.last];
-    const double c = glm::distance(a, b);
-    const double* in = &coordinates[node.offset];
-    const StretchDomain domain(node.proximal_reach, node.distal_reach, c);
-    double lp = node.proximal_reach.hi, ld = node.distal_reach.hi;
+}
+
+void Chain::decode_node(const Node& node, std::span<const double> coordinates, std::span<Vec3> points) const {
+  const Vec3 a = points[node.first], b = points[node.last];
+  const double* in = &coordinates[node.offset];
+  double lp = node.proximal_reach.hi, ld = node.distal_reach.hi;
+  if (node.stretches > 0) {
+    const StretchDomain domain(node.proximal_reach, node.distal_reach, glm::distance(a, b));
     if (node.stretches == 2) {
       std::tie(lp, ld) = domain.lengths(from_logit(in[0]), from_logit(in[1]));
-    } else if (node.stretches == 1 && node.proximal < 0) {
+    } else if (node.proximal < 0) {
       ld = domain.distal_length(from_logit(in[0]));
-    } else if (node.stretches == 1) {
+    } else {
       lp = domain.proximal_length(from_logit(in[0]));
     }
-    const Vec3 stored(in[node.stretches], in[node.stretches + 1], in[node.stretches + 2]);
-    const Vec3 axis = c > 1e-12 ? (b - a) / c : any_perpendicular(usable_normal(stored, Vec3(0, 0, 1)));
-    const double x = c > 1e-12 ? (c * c + (lp - ld) * (lp + ld)) / (2.0 * c) : 0.0;
-    const double gap = std::min(lp + ld - c, c - std::abs(lp - ld));
-    if (gap <= kFlat * (node.proximal_reach.hi + node.distal_reach.hi) && c > 1e-12) {
-      points[node.pivot] = a + axis * std::copysign(lp, x);
-    } else {
-      const double height = std::sqrt(std::max(0.0, (lp - x) * (lp + x)));
-      points[node.pivot] = a + axis * x + glm::cross(axis, usable_normal(stored, axis)) * height;
-    }
   }
+  const Vec3 normal(in[node.stretches], in[node.stretches + 1], in[node.stretches + 2]);
+  points[node.pivot] = pivot_point(a, b, lp, ld, normal);
 }
 
 }  // namespace reachcast

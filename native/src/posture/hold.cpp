@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reachcast/posture/hold.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "moved_trunk.hpp"
 
 namespace reachcast {
 namespace {
@@ -13,7 +14,6 @@ constexpr double kRoomToSmooth_m = 8e-3;  // and settled this far inside it
 constexpr double kRoomBetween_m = 4e-3;   // and completed this far: what happens between two moments
 constexpr double kTolerance_m = 1e-6;     // when the trunk's search is done
 constexpr int kReachRounds = 150;
-constexpr double kTurnStep = 0.25;  // share of the wanted turn taken in each round: a shift is preferred
 constexpr double kMostTurn_rad = 0.6;
 constexpr int kBalanceRounds = 12;
 constexpr double kFalling_m = 0.12;      // weight this far beyond the feet: nobody stands there
@@ -23,39 +23,6 @@ constexpr double kMassThatMoves = 0.75;  // share of the weight that goes with t
 constexpr double kFreeWrist_rad = 0.7;
 constexpr double kMostWrist_rad = 1.1;  // smoothing over time may add some
 constexpr int kWristRounds = 4;
-
-using Corners = std::array<Vec3, 4>;  // roots of the limbs, or their ends
-
-struct RigidMotion {
-  Mat3 rotation{1.0};
-  Vec3 pivot{0.0}, moved_pivot{0.0};
-  [[nodiscard]] Vec3 operator()(const Vec3& p) const { return moved_pivot + rotation * (p - pivot); }
-};
-
-Vec3 rotation_vector(const Mat3& rotation) {
-  const Quat q = glm::normalize(glm::quat_cast(rotation));
-  const Vec3 axis(q.x, q.y, q.z);
-  const double sine = glm::length(axis);
-  if (sine < 1e-15) return Vec3(0.0);
-  return axis * ((q.w < 0.0 ? -2.0 : 2.0) * std::atan2(sine, std::abs(q.w)) / sine);
-}
-
-Mat3 rotation_by(const Vec3& vector) {
-  const double angle = glm::length(vector);
-  return angle < 1e-15 ? Mat3(1.0) : glm::mat3_cast(glm::angleAxis(angle, vector / angle));
-}
-
-/// The rigid motion that brings `from` nearest to `to` in the least-squares sense (Kabsch 1976).
-RigidMotion nearest_rigid_motion(const Corners& from, const Corners& to) {
-  Vec3 a(0.0), b(0.0);
-  for (std::size_t i = 0; i < 4; ++i) a += 0.25 * from[i], b += 0.25 * to[i];
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < 4; ++i) covariance += to_eigen(to[i] - b) * to_eigen(from[i] - a).transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs(1.0, 1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0);
-  const Eigen::Matrix3d r = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  return {Mat3(to_glm(r.col(0)), to_glm(r.col(1)), to_glm(r.col(2))), a, b};
-}
 
 /// Where a limb with this reach spans from `root` to `anchor`: the nearest such place when the limb is too short. When
 /// it is too long a shoulder goes straight away from its wrist; a hip goes up, since a squat ends in standing up.
@@ -71,60 +38,33 @@ Vec3 brought_within(const Interval& reach, const Vec3& root, const Vec3& anchor,
   return anchor + Vec3(away.x, away.y, std::sqrt(lo * lo - level * level));
 }
 
-constexpr std::array kTrunk{Joint::left_hip,       Joint::right_hip,     Joint::l5s1,           Joint::c7t1,
-                            Joint::suprasternale,  Joint::left_clavicle, Joint::right_clavicle, Joint::left_shoulder,
-                            Joint::right_shoulder, Joint::tragion,       Joint::nasion};
-
-/// All roots by the mean of the pulls that there are.
-void shift(Corners& roots, const Corners& wanted) {
+/// The mean of the pulls that there are.
+Vec3 mean_pull(const Corners& roots, const Corners& wanted) {
   Vec3 sum(0.0);
   double pulls = 0.0;
   for (std::size_t i = 0; i < kLimbCount; ++i) {
     if (wanted[i] != roots[i]) sum += wanted[i] - roots[i], pulls += 1.0;
   }
-  for (Vec3& root : roots) root += sum / std::max(pulls, 1.0);
-}
-
-/// `roots` as the rigid image of `before` nearest to them, turned by no more than the limit.
-void limit_turn(const Corners& before, Corners& roots) {
-  RigidMotion motion = nearest_rigid_motion(before, roots);
-  const Vec3 turn = rotation_vector(motion.rotation);
-  const double angle = glm::length(turn);
-  if (angle > kMostTurn_rad) motion.rotation = rotation_by(turn * (kMostTurn_rad / angle));
-  for (std::size_t i = 0; i < kLimbCount; ++i) roots[i] = motion(before[i]);
+  return sum / std::max(pulls, 1.0);
 }
 
 /// `hand` as it is up to a moderate bend from `forearm`, and less and less of the rest: a bend never exceeds the limit.
 Vec3 bent_at_most(const Vec3& forearm, const Vec3& hand) {
-  const double bend = std::acos(std::clamp(glm::dot(forearm, hand), -1.0, 1.0));
-  if (bend <= kFreeWrist_rad) return hand;
-  const double room = kMostWrist_rad - kFreeWrist_rad;
+  static const double free_cosine = std::cos(kFreeWrist_rad);
+  const double cosine = glm::dot(forearm, hand);
+  if (cosine >= free_cosine) return hand;
+  const double bend = std::acos(std::max(cosine, -1.0)), room = kMostWrist_rad - kFreeWrist_rad;
   const double allowed = kFreeWrist_rad + room * (1.0 - std::exp(-(bend - kFreeWrist_rad) / room));
-  const Vec3 axis = glm::cross(forearm, hand);
-  if (glm::length(axis) < 1e-9) return forearm;
-  return glm::angleAxis(allowed, glm::normalize(axis)) * forearm;
+  const Vec3 across = hand - cosine * forearm;
+  const double size = glm::length(across);
+  if (size < 1e-9) return forearm;
+  return std::cos(allowed) * forearm + std::sin(allowed) / size * across;
 }
 
 /// Ankles and wrists, in the order of Linkage::limbs.
 Corners limb_ends(const std::array<Vec3, 2>& wrist_from_grip, const Anchors& anchors) {
   return {anchors.ankle[0], anchors.ankle[1], anchors.grip[0] + wrist_from_grip[0],
           anchors.grip[1] + wrist_from_grip[1]};
-}
-
-/// How l5s1 goes, and how the trunk turns about it, as the roots of its limbs go from `before` to `now`.
-std::pair<Vec3, Vec3> move_of(const Decoded& decoded, const Corners& before, const Corners& now) {
-  const RigidMotion motion = nearest_rigid_motion(before, now);
-  const Vec3 waist = decoded.trunk[index(Joint::l5s1)];
-  return {motion(waist) - waist, rotation_vector(motion.rotation)};
-}
-
-/// The roots of the limbs as the stance moves them.
-Corners moved(const Decoded& decoded, const Corners& roots, const Stance& stance) {
-  const Vec3 waist = decoded.trunk[index(Joint::l5s1)];
-  const RigidMotion motion{rotation_by(stance.turn_rad), waist, waist + stance.shift};
-  Corners out;
-  for (std::size_t i = 0; i < kLimbCount; ++i) out[i] = motion(roots[i]);
-  return out;
 }
 
 std::array<Vec3, 2> wrists_of(const Decoded& decoded, const Stance& stance) {
@@ -142,86 +82,75 @@ Holder::Holder(const Linkage& linkage, const Body& body, double body_mass_kg)
   for (const LimbSpec& limb : limbs_) chains_.push_back(chain_of(limb, body.posture(), true));
 }
 
-Holder::Corners Holder::roots_of(const Decoded& decoded) const {
-  Corners roots;
-  for (std::size_t i = 0; i < kLimbCount; ++i) roots[i] = decoded.trunk[index(limbs_[i].root)];
-  return roots;
-}
-
 Stance Holder::settle(const Decoded& decoded, const Anchors& anchors, const Load& load) const {
-  const Corners before = roots_of(decoded);
-  Corners now = before;
+  MovedTrunk trunk(decoded, limbs_);
   for (int round = 0; round < kBalanceRounds; ++round) {
-    const Wrists wrists = limited_wrists(decoded, now, anchors);
-    bring_within_reach(before, now, limb_ends(wrists, anchors), kRoomToSmooth_m);
+    const Wrists wrists = limited_wrists(decoded, trunk.roots(), anchors);
+    bring_within_reach(trunk, limb_ends(wrists, anchors), kRoomToSmooth_m);
     if (round + 1 == kBalanceRounds) break;
-    const Posture posture = spanned(decoded, before, now, wrists, anchors);
+    const Posture posture = spanned(decoded, trunk, wrists, anchors);
     const Vec3 excess = beyond_support(centre_of_mass(posture, body_mass_kg_, load), anchors);
     if (glm::length(excess) < kTolerance_m) break;
-    for (Vec3& root : now) root -= excess / kMassThatMoves;
+    trunk.shift_by(-excess / kMassThatMoves);
   }
-  const auto [shift, turn] = move_of(decoded, before, now);
-  return {shift, turn, limited_wrists(decoded, now, anchors)};
+  return {trunk.shift(), rotation_vector(trunk.turn()), limited_wrists(decoded, trunk.roots(), anchors)};
 }
 
 Stance Holder::completed(const Decoded& decoded, const Stance& stance, const Anchors& anchors) const {
-  const Corners before = roots_of(decoded);
-  Corners now = moved(decoded, before, stance);
-  bring_within_reach(before, now, limb_ends(wrists_of(decoded, stance), anchors), kRoomBetween_m);
-  const auto [shift, turn] = move_of(decoded, before, now);
-  return {shift, turn, stance.wrist_from_grip};
+  MovedTrunk trunk(decoded, limbs_, stance);
+  bring_within_reach(trunk, limb_ends(wrists_of(decoded, stance), anchors), kRoomBetween_m);
+  return {trunk.shift(), rotation_vector(trunk.turn()), stance.wrist_from_grip};
 }
 
 Posture Holder::hold(const Decoded& decoded, const Stance& stance, const Anchors& anchors, const Load& load,
                      HoldReport& report) const {
-  const Corners before = roots_of(decoded);
-  Corners now = moved(decoded, before, stance);
+  MovedTrunk trunk(decoded, limbs_, stance);
   const Wrists wrists = wrists_of(decoded, stance);
   const Corners ends = limb_ends(wrists, anchors);
-  bring_within_reach(before, now, ends, kMargin_m);
-  measure_shortfall(now, ends, report);
-  const Posture posture = spanned(decoded, before, now, wrists, anchors);
+  bring_within_reach(trunk, ends, kMargin_m);
+  measure_shortfall(trunk.roots(), ends, report);
+  const Posture posture = spanned(decoded, trunk, wrists, anchors);
   report.unbalanced_m = glm::length(beyond_support(centre_of_mass(posture, body_mass_kg_, load), anchors));
   if (report.shortfall_m == 0.0 && report.unbalanced_m > kFalling_m) {
     // The limbs can hold on, the person cannot: so much nearer would the trunk have to be.
-    const auto stretch = [&](std::size_t arm) { return glm::distance(now[arm], ends[arm]) / chains_[arm].reach().hi; };
+    const auto stretch = [&](std::size_t arm) {
+      return glm::distance(trunk.roots()[arm], ends[arm]) / chains_[arm].reach().hi;
+    };
     report.shortfall_m = (report.unbalanced_m - kFalling_m) / kMassThatMoves;
     report.shortfall_from = limbs_[stretch(2) > stretch(3) ? 2 : 3].root;
   }
-  report.trunk_shift_m = glm::distance(decoded.trunk[index(Joint::l5s1)], posture[index(Joint::l5s1)]);
-  report.trunk_turn_rad = glm::length(rotation_vector(nearest_rigid_motion(before, now).rotation));
+  report.trunk_shift_m = glm::length(trunk.shift());
+  report.trunk_turn_rad = glm::length(rotation_vector(trunk.turn()));
   return posture;
 }
 
 /// A hand bends from its forearm by no more than the limit. The forearm in turn depends on where the hand puts the
-/// wrist, so this is done a few times over.
+/// wrist, so this is done a few times over, or until nothing changes any more.
 Holder::Wrists Holder::limited_wrists(const Decoded& decoded, const Corners& roots, const Anchors& anchors) const {
-  Wrists wrists = decoded.wrist_from_grip;
+  Wrists wrists;
   for (const std::size_t side : {0u, 1u}) {
     const std::size_t arm = 2 + side;
-    const LimbSpec& limb = limbs_[arm];
-    const double length = glm::length(wrists[side]);
-    const Vec3 learned = -wrists[side] / length, grip = anchors.grip[side];
-    Posture posture{};
-    posture[index(limb.root)] = roots[arm];
-    Vec3 forearm = glm::distance(grip, roots[arm]) > 1e-9 ? glm::normalize(grip - roots[arm]) : learned;
+    const double length = glm::length(decoded.wrist_from_grip[side]);
+    const Vec3 learned = -decoded.wrist_from_grip[side] / length, grip = anchors.grip[side];
+    const double away = glm::distance(grip, roots[arm]);
+    Vec3 hand = bent_at_most(away > 1e-9 ? (grip - roots[arm]) / away : learned, learned);
     for (int round = 0; round < kWristRounds; ++round) {
-      wrists[side] = -length * bent_at_most(forearm, learned);
-      span_limb(limb, chains_[arm], decoded.planes[arm], grip + wrists[side], posture);
-      forearm = glm::normalize(posture[index(limb.end)] - posture[index(limb.hinge)]);
+      const SpannedLimb limb = spanned_limb(chains_[arm], decoded.planes[arm], roots[arm], grip - length * hand);
+      const Vec3 before = hand;
+      hand = bent_at_most(glm::normalize(limb.end - limb.hinge), learned);
+      if (hand == before) break;
     }
-    wrists[side] = -length * bent_at_most(forearm, learned);
+    wrists[side] = -length * hand;
   }
   return wrists;
 }
 
-/// The decoded posture with its trunk moved as the roots have moved, its limbs, hands and feet where they belong.
-Posture Holder::spanned(const Decoded& decoded, const Corners& before, const Corners& roots, const Wrists& wrists,
+/// The decoded posture with its trunk moved, its limbs, hands and feet where they belong.
+Posture Holder::spanned(const Decoded& decoded, const MovedTrunk& trunk, const Wrists& wrists,
                         const Anchors& anchors) const {
   const Corners ends = limb_ends(wrists, anchors);
-  const RigidMotion motion = nearest_rigid_motion(before, roots);
-  Posture posture = decoded.trunk;
-  for (const Joint j : kTrunk) posture[index(j)] = motion(decoded.trunk[index(j)]);
+  Posture posture;
+  trunk.place(decoded, posture);
   for (std::size_t i = 0; i < kLimbCount; ++i) span_limb(limbs_[i], chains_[i], decoded.planes[i], ends[i], posture);
   place_hands(body_, wrists, posture);
   for (const std::size_t side : {0u, 1u}) {  // the foot goes with its ankle
@@ -233,17 +162,14 @@ Posture Holder::spanned(const Decoded& decoded, const Corners& before, const Cor
 
 /// Every root is pulled to where its limb just reaches and the trunk follows as a rigid body, again and again until all
 /// reach. The same steps are taken for every input, so that neighbouring inputs have neighbouring results.
-void Holder::bring_within_reach(const Corners& before, Corners& roots, const Corners& ends, double margin_m) const {
+void Holder::bring_within_reach(MovedTrunk& trunk, const Corners& ends, double margin_m) const {
   for (int round = 0; round < kReachRounds; ++round) {
     Corners wanted;
-    if (pulled_roots(roots, ends, kLimbCount, margin_m, wanted) < kTolerance_m) return;
-    shift(roots, wanted);
-    (void)pulled_roots(roots, ends, kLimbCount, margin_m, wanted);
-    RigidMotion step = nearest_rigid_motion(roots, wanted);
-    step.rotation = rotation_by(kTurnStep * rotation_vector(step.rotation));
-    step.moved_pivot = step.pivot;
-    for (Vec3& root : roots) root = step(root);
-    limit_turn(before, roots);
+    if (pulled_roots(trunk.roots(), ends, kLimbCount, margin_m, wanted) < kTolerance_m) return;
+    trunk.shift_by(mean_pull(trunk.roots(), wanted));
+    (void)pulled_roots(trunk.roots(), ends, kLimbCount, margin_m, wanted);
+    // Only a quarter of the turn: a shift is preferred.
+    trunk.turn_about_roots_by(quarter_of(nearest_turn(trunk.roots(), wanted)), kMostTurn_rad);
   }
 }
 
@@ -254,7 +180,8 @@ void Holder::measure_shortfall(Corners roots, const Corners& ends, HoldReport& r
   if (pulled_roots(roots, ends, kLimbCount, kMargin_m, wanted) < kMargin_m) return;
   for (int round = 0; round < kReachRounds; ++round) {
     if (pulled_roots(roots, ends, 2, kMargin_m, wanted) < kTolerance_m) break;
-    shift(roots, wanted);
+    const Vec3 pull = mean_pull(roots, wanted);
+    for (Vec3& root : roots) root += pull;
   }
   pulled_roots(roots, ends, kLimbCount, kMargin_m, wanted);
   for (std::size_t i = 0; i < kLimbCount; ++i) {
@@ -270,7 +197,7 @@ double Holder::pulled_roots(const Corners& roots, const Corners& ends, std::size
   double longest = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     wanted[i] = brought_within(chains_[i].reach(), roots[i], ends[i], margin_m, i < 2);
-    longest = std::max(longest, glm::distance(wanted[i], roots[i]));
+    if (wanted[i] != roots[i]) longest = std::max(longest, glm::distance(wanted[i], roots[i]));
   }
   return longest;
 }

@@ -2,7 +2,6 @@
 #include "reachcast/posture/limb.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace reachcast {
 
@@ -21,17 +20,21 @@ Chain chain_of(const LimbSpec& limb, const Posture& posture, bool limited) {
       {glm::distance(posture[index(limb.root)], hinge), glm::distance(hinge, posture[index(limb.end)])}, {1}, limits};
 }
 
-void span_limb(const LimbSpec& limb, const Chain& chain, const LimbPlane& plane, const Vec3& end, Posture& posture) {
-  const Vec3 root = posture[index(limb.root)];
+SpannedLimb spanned_limb(const Chain& chain, const LimbPlane& plane, const Vec3& root, const Vec3& end) {
   const double across = glm::distance(root, end), wanted = std::clamp(across, chain.reach().lo, chain.reach().hi);
   const Vec3 axis = across > 1e-9 ? (end - root) / across : Vec3(0, 0, -1);
-  const Vec3 normal =
-      glm::length(plane.axis) > 1e-9 ? smallest_rotation(plane.axis, axis) * plane.normal : plane.normal;
-  const std::array coordinates{normal.x, normal.y, normal.z};
-  std::array<Vec3, 3> points;
-  chain.decode(root, across == wanted ? end : root + axis * wanted, coordinates, points);
-  posture[index(limb.hinge)] = points[1];
-  posture[index(limb.end)] = points[2];
+  const double known = glm::length(plane.axis);
+  const Vec3 normal = known > 1e-9 ? carried_along(plane.axis / known, axis, plane.normal) : plane.normal;
+  const Vec3 reached = across == wanted ? end : root + axis * wanted;
+  const double upper = chain.lengths()[0], lower = chain.lengths()[1];
+  if (wanted <= 1e-9) return {pivot_point(root, reached, upper, lower, normal), reached};
+  return {pivot_point(root, axis, wanted, upper, lower, normal), reached};
+}
+
+void span_limb(const LimbSpec& limb, const Chain& chain, const LimbPlane& plane, const Vec3& end, Posture& posture) {
+  const SpannedLimb spanned = spanned_limb(chain, plane, posture[index(limb.root)], end);
+  posture[index(limb.hinge)] = spanned.hinge;
+  posture[index(limb.end)] = spanned.end;
 }
 
 }  // namespace reachcast

@@ -18,8 +18,8 @@ Linkage make_two_handed() {
                       right_wrist, right_grip},
                      {right_clavicle, left_hip, right_shoulder, right_wrist, left_ankle},
                      {{right_elbow, kElbow}, {left_knee, kKnee}}};
-  linkage.parts = {{"pelvis", left_hip, l5s1, right_hip, {}},
-                   {"chest", l5s1, right_clavicle, c7t1, {suprasternale, left_clavicle}}};
+  linkage.parts = {{{"pelvis", left_hip, l5s1, right_hip, {}},
+                    {"chest", l5s1, right_clavicle, c7t1, {suprasternale, left_clavicle}}}};
   linkage.limbs = {{{left_hip, left_knee, left_ankle, kKnee, 0.2},
                     {right_hip, right_knee, right_ankle, kKnee, 0.2},
                     {left_shoulder, left_elbow, left_wrist, kElbow, 1.0},

@@ -26,11 +26,6 @@ const std::array<std::vector<Joint>, kLimbCount>& carried_by_ends() {
 
 }  // namespace
 
-Vec3 turned(const Vec3& v, double yaw_rad) {
-  const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
-  return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
-}
-
 double facing_yaw(const Vec3& between_ankles, const Vec3& hold_point) {
   return std::atan2(-(hold_point.x - between_ankles.x), hold_point.y - between_ankles.y + kSeenFrom_m);
 }
@@ -42,19 +37,20 @@ double facing_yaw(const Anchors& anchors) {
 Anchors with_grips_turned(const Anchors& anchors, double yaw_rad) {
   const Vec3 feet = 0.5 * (anchors.ankle[0] + anchors.ankle[1]);
   Anchors out = anchors;
-  for (Vec3& grip : out.grip) grip = feet + turned(grip - feet, yaw_rad);
+  const Yaw turn(yaw_rad);
+  for (Vec3& grip : out.grip) grip = feet + turn(grip - feet);
   return out;
 }
 
 Posture turned_trunk(const Posture& posture, double yaw_rad) {
   using enum Joint;
   const Vec3 feet = 0.5 * (posture[index(left_ankle)] + posture[index(right_ankle)]);
+  const Yaw pelvis(kPelvisShare * yaw_rad), chest(kChestShare * yaw_rad);
   Posture out = posture;
-  for (const Joint j : {left_hip, right_hip, l5s1})
-    out[index(j)] = feet + turned(posture[index(j)] - feet, kPelvisShare * yaw_rad);
+  for (const Joint j : {left_hip, right_hip, l5s1}) out[index(j)] = feet + pelvis(posture[index(j)] - feet);
   for (const Joint j :
        {c7t1, suprasternale, left_clavicle, right_clavicle, left_shoulder, right_shoulder, tragion, nasion}) {
-    out[index(j)] = out[index(l5s1)] + turned(posture[index(j)] - posture[index(l5s1)], kChestShare * yaw_rad);
+    out[index(j)] = out[index(l5s1)] + chest(posture[index(j)] - posture[index(l5s1)]);
   }
   return out;
 }

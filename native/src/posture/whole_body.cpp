@@ -23,13 +23,6 @@ Vec3 within_reach(const Chain& chain, const Vec3& start, const Vec3& end) {
   return start + away * wanted;
 }
 
-void decode_chain(const ChainSpec& spec, const Chain& chain, const double* coordinates, const Vec3& start,
-                  const Vec3& end, Posture& posture) {
-  Points points(spec.joints.size());
-  chain.decode(start, within_reach(chain, start, end), {coordinates, chain.coordinate_count()}, points);
-  for (std::size_t i = 0; i < points.size(); ++i) posture[index(spec.joints[i])] = points[i];
-}
-
 void encode_chain(const ChainSpec& spec, const Posture& posture, double* out) {
   const Chain chain = chain_of(spec, posture, false);
   Points points;
@@ -60,25 +53,21 @@ double* encode_trunk(const Linkage& linkage, const Posture& posture, double* out
   return out;
 }
 
+Mat3 frame_of(const RigidSpec& part, const Posture& posture) {
+  return triangle_frame(posture[index(part.a)], posture[index(part.b)], posture[index(part.apex)]);
+}
+
 /// How a part is turned in `posture` against a stand.
 Mat3 turn_of(const RigidSpec& part, const Posture& stand, const Posture& posture) {
-  const auto frame = [&](const Posture& p) {
-    return triangle_frame(p[index(part.a)], p[index(part.b)], p[index(part.apex)]);
-  };
-  return frame(posture) * glm::transpose(frame(stand));
+  return frame_of(part, posture) * glm::transpose(frame_of(part, stand));
 }
 
 /// Level axes of the held object: x from the left grip to the right one.
-Mat3 object_frame(const Posture& posture) {
-  const Vec3 across = posture[index(Joint::right_grip)] - posture[index(Joint::left_grip)];
+Mat3 object_frame(const Vec3& left_grip, const Vec3& right_grip) {
+  const Vec3 across = right_grip - left_grip;
   const double size = std::hypot(across.x, across.y);
   const Vec3 x = size > 1e-6 ? Vec3(across.x / size, across.y / size, 0.0) : Vec3(1, 0, 0);
   return {x, Vec3(-x.y, x.x, 0.0), Vec3(0, 0, 1)};
-}
-
-Mat3 pointer_frame(const Linkage& linkage, const PointerSpec& pointer, const Posture& stand, const Posture& posture) {
-  return pointer.part == PointerSpec::kObject ? object_frame(posture)
-                                              : turn_of(linkage.parts[pointer.part], stand, posture);
 }
 
 /// The stand against which recordings are measured: they bring none of their own, and their trunk landmarks follow
@@ -88,34 +77,26 @@ const Posture& upright() {
   return stand;
 }
 
-/// The apex on its circle about a -> b, in the direction whose triangle has the stored normal; the riders follow.
-void decode_part(const RigidSpec& part, const Body& body, const double* stored, Posture& posture) {
-  const Vec3 a = posture[index(part.a)], b = posture[index(part.b)];
-  const Vec3 normal(stored[0], stored[1], stored[2]);
+/// The frame of a part whose a and b are there: its apex lies on a circle about them, in the direction whose triangle
+/// has the stored normal.
+Mat3 frame_about(const Vec3& a, const Vec3& b, const Vec3& normal) {
   const Vec3 axis = glm::normalize(b - a);
   const Vec3 across = glm::cross(normal, axis);
   const double size = glm::length(across);
-  const Mat3 rest = triangle_frame(body.at(part.a), body.at(part.b), body.at(part.apex));
   const Vec3 toward = size > 1e-9 ? across / size : glm::normalize(glm::cross(axis, Vec3(axis.y, axis.z, -axis.x)));
-  const Mat3 frame(axis, toward, glm::cross(axis, toward));
-  const Mat3 rotation = frame * glm::transpose(rest);
-  posture[index(part.apex)] = a + rotation * (body.at(part.apex) - body.at(part.a));
-  for (const Joint rider : part.riders) posture[index(rider)] = a + rotation * (body.at(rider) - body.at(part.a));
+  return {axis, toward, glm::cross(axis, toward)};
 }
 
-/// Parts that hang together at l5s1, midway between two ways of standing.
-Posture mean_trunk(const Linkage& linkage, const Body& body, const Posture& one, const Posture& other) {
-  Posture mean{};
-  const Vec3 centre = 0.5 * (one[index(Joint::l5s1)] + other[index(Joint::l5s1)]);
-  for (const RigidSpec& part : linkage.parts) {
-    const Quat a = glm::quat_cast(turn_of(part, body.posture(), one)),
-               b = glm::quat_cast(turn_of(part, body.posture(), other));
-    const Mat3 rotation = glm::mat3_cast(glm::normalize(glm::dot(a, b) < 0.0 ? a - b : a + b));
-    const auto place = [&](Joint j) { mean[index(j)] = centre + rotation * (body.at(j) - body.at(Joint::l5s1)); };
-    for (const Joint j : {part.a, part.b, part.apex}) place(j);
-    for (const Joint j : part.riders) place(j);
-  }
-  return mean;
+/// Midway between two turns, of which the second is seen in a mirror that exchanges left and right.
+Quat middle_turn(const Quat& one, const Quat& mirrored) {
+  const Quat other(mirrored.w, mirrored.x, -mirrored.y, -mirrored.z);
+  return glm::normalize(glm::dot(one, other) < 0.0 ? one - other : one + other);
+}
+
+Vec3 direction(const double* stored, const Vec3& otherwise) {
+  const Vec3 local(stored[0], stored[1], stored[2]);
+  const double size = glm::length(local);
+  return size > 1e-9 ? local / size : glm::normalize(otherwise);
 }
 
 }  // namespace
@@ -166,7 +147,9 @@ Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded) 
   double* next = encode_trunk(linkage, posture, out.data());
   next = encode_trunk(linkage, mirrored(posture), next);
   for (const PointerSpec& pointer : linkage.pointers) {
-    const Mat3 turn = pointer_frame(linkage, pointer, upright(), posture);
+    const Mat3 turn = pointer.part == PointerSpec::kObject
+                          ? object_frame(posture[index(Joint::left_grip)], posture[index(Joint::right_grip)])
+                          : turn_of(linkage.parts[pointer.part], upright(), posture);
     const Vec3 local = glm::transpose(turn) * glm::normalize(posture[index(pointer.to)] - posture[index(pointer.from)]);
     for (int i = 0; i < 3; ++i) *next++ = local[i];
   }
@@ -181,59 +164,88 @@ Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded) 
 BodyLinkage::BodyLinkage(const Linkage& linkage, const Body& body)
     : linkage_(linkage),
       body_(body),
-      mirror_body_(Body::from_posture(mirrored(body.posture()), body.stature_m())),
-      primary_(chain_of(linkage.primary, body.posture(), true)),
-      mirror_primary_(chain_of(linkage.primary, mirror_body_.posture(), true)) {}
+      sides_{side_of(body), side_of(Body::from_posture(mirrored(body.posture()), body.stature_m()))},
+      waist_(position_in(linkage.primary, Joint::l5s1)) {
+  for (const PointerSpec& pointer : linkage.pointers)
+    pointer_lengths_.push_back(body.distance(pointer.from, pointer.to));
+}
+
+BodyLinkage::Side BodyLinkage::side_of(const Body& body) const {
+  std::vector<std::size_t> joints{position_in(linkage_.primary, Joint::l5s1)};
+  for (const RigidSpec& part : linkage_.parts) {
+    for (const Joint joint : {part.a, part.b}) joints.push_back(position_in(linkage_.primary, joint));
+  }
+  Side side{chain_of(linkage_.primary, body.posture(), true), {}, {}};
+  side.steps = side.primary.steps_to(joints);
+  for (std::size_t i = 0; i < kPartCount; ++i)
+    side.to_own_frame[i] = glm::transpose(frame_of(linkage_.parts[i], body.posture()));
+  return side;
+}
 
 Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted) const {
   const double yaw = facing_yaw(wanted);
   const Anchors anchors = with_grips_turned(wanted, -yaw);
-  const std::size_t trunk_count = primary_.coordinate_count() + 3 * linkage_.parts.size();
   const double* next = coordinates.data();
-  Posture posture =
-      mean_trunk(linkage_, body_, trunk_of(next, body_, primary_, anchors),
-                 mirrored(trunk_of(next + trunk_count, mirror_body_, mirror_primary_, mirrored(anchors))));
+  const std::size_t trunk_count = sides_[0].primary.coordinate_count() + 3 * kPartCount;
+  Trunk trunk = trunk_of(sides_[0], next, anchors);
+  const Trunk mirror = trunk_of(sides_[1], next + trunk_count, mirrored(anchors));
+  trunk.waist = 0.5 * (trunk.waist + Vec3(-mirror.waist.x, mirror.waist.y, mirror.waist.z));
+  for (std::size_t i = 0; i < kPartCount; ++i) trunk.turns[i] = middle_turn(trunk.turns[i], mirror.turns[i]);
   next += 2 * trunk_count;
-  place_pointed(anchors, next, posture);
+  Posture posture{};
+  for (const std::size_t side : {0u, 1u}) {
+    posture[index(side == 0 ? Joint::left_grip : Joint::right_grip)] = anchors.grip[side];
+    posture[index(side == 0 ? Joint::left_ankle : Joint::right_ankle)] = anchors.ankle[side];
+  }
+  place_trunk(trunk, next, posture);
   next += 3 * linkage_.pointers.size();
   Decoded decoded;
   for (std::size_t i = 0; i < kLimbCount; ++i) {
-    const double turn = linkage_.limbs[i].turn * yaw;
-    decoded.planes[i] = {turned({next[0], next[1], next[2]}, turn), turned({next[3], next[4], next[5]}, turn)};
+    const Yaw turn(linkage_.limbs[i].turn * yaw);
+    decoded.planes[i] = {turn({next[0], next[1], next[2]}), turn({next[3], next[4], next[5]})};
     next += 6;
   }
   for (const std::size_t side : {0u, 1u}) {
     const Joint wrist = side == 0 ? Joint::left_wrist : Joint::right_wrist;
     decoded.wrist_from_grip[side] = turned(posture[index(wrist)] - anchors.grip[side], yaw);
-    posture[index(side == 0 ? Joint::left_ankle : Joint::right_ankle)] = anchors.ankle[side];
   }
   decoded.trunk = turned_trunk(posture, yaw);
   return decoded;
 }
 
-Posture BodyLinkage::trunk_of(const double* stored, const Body& body, const Chain& primary,
-                              const Anchors& anchors) const {
-  Posture posture{};
-  decode_chain(linkage_.primary, primary, stored, anchors.ball[0], anchors.grip[1], posture);
-  stored += primary.coordinate_count();
-  for (const RigidSpec& part : linkage_.parts) {
-    decode_part(part, body, stored, posture);
-    stored += 3;
+BodyLinkage::Trunk BodyLinkage::trunk_of(const Side& side, const double* stored, const Anchors& anchors) const {
+  std::array<Vec3, kJointCount> points;
+  const Vec3 start = anchors.ball[0];
+  side.primary.decode(start, within_reach(side.primary, start, anchors.grip[1]),
+                      {stored, side.primary.coordinate_count()}, side.steps, points);
+  stored += side.primary.coordinate_count();
+  Trunk trunk;
+  trunk.waist = points[waist_];
+  for (std::size_t i = 0; i < kPartCount; ++i, stored += 3) {
+    const RigidSpec& part = linkage_.parts[i];
+    const Vec3 a = points[position_in(linkage_.primary, part.a)], b = points[position_in(linkage_.primary, part.b)];
+    const Vec3 normal(stored[0], stored[1], stored[2]);
+    trunk.turns[i] = glm::quat_cast(frame_about(a, b, normal) * side.to_own_frame[i]);
   }
-  return posture;
+  return trunk;
 }
 
-void BodyLinkage::place_pointed(const Anchors& anchors, const double* stored, Posture& posture) const {
-  posture[index(Joint::left_grip)] = anchors.grip[0];
-  posture[index(Joint::right_grip)] = anchors.grip[1];
-  for (const PointerSpec& pointer : linkage_.pointers) {
-    const Vec3 local(stored[0], stored[1], stored[2]);
-    const double size = glm::length(local);
-    const Vec3 direction = size > 1e-9 ? local / size : glm::normalize(body_.at(pointer.to) - body_.at(pointer.from));
-    const Mat3 frame = pointer_frame(linkage_, pointer, body_.posture(), posture);
-    posture[index(pointer.to)] =
-        posture[index(pointer.from)] + frame * direction * body_.distance(pointer.from, pointer.to);
-    stored += 3;
+void BodyLinkage::place_trunk(const Trunk& trunk, const double* pointers, Posture& posture) const {
+  std::array<Mat3, kPartCount> turns;
+  const Vec3 waist = body_.at(Joint::l5s1);
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const RigidSpec& part = linkage_.parts[i];
+    turns[i] = glm::mat3_cast(trunk.turns[i]);
+    const auto place = [&](Joint j) { posture[index(j)] = trunk.waist + turns[i] * (body_.at(j) - waist); };
+    for (const Joint j : {part.a, part.b, part.apex}) place(j);
+    for (const Joint j : part.riders) place(j);
+  }
+  const Mat3 object = object_frame(posture[index(Joint::left_grip)], posture[index(Joint::right_grip)]);
+  for (std::size_t i = 0; i < linkage_.pointers.size(); ++i, pointers += 3) {
+    const PointerSpec& pointer = linkage_.pointers[i];
+    const Mat3& frame = pointer.part == PointerSpec::kObject ? object : turns[pointer.part];
+    const Vec3 along = direction(pointers, body_.at(pointer.to) - body_.at(pointer.from));
+    posture[index(pointer.to)] = posture[index(pointer.from)] + frame * along * pointer_lengths_[i];
   }
 }
 
@@ -241,11 +253,11 @@ void place_hands(const Body& body, const std::array<Vec3, 2>& wrist_from_grip, P
   using enum Joint;
   for (const bool left : {true, false}) {
     const Joint wrist = left ? left_wrist : right_wrist;
-    const Vec3 along = -wrist_from_grip[left ? 0 : 1];
+    const Vec3 along = -wrist_from_grip[left ? 0 : 1], direction = glm::normalize(along);
     posture[index(left ? left_grip : right_grip)] = posture[index(wrist)] + along;
     for (const Joint j :
          left ? std::array{left_hand_front, left_hand_back} : std::array{right_hand_front, right_hand_back}) {
-      posture[index(j)] = posture[index(wrist)] + glm::normalize(along) * body.distance(wrist, j);
+      posture[index(j)] = posture[index(wrist)] + direction * body.distance(wrist, j);
     }
   }
 }

@@ -2,6 +2,7 @@
 #include "reachcast/predict/approach.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace reachcast {
@@ -23,13 +24,17 @@ double level_distance(const Vec3& a, const Vec3& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-double rise_for(const std::function<Vec3(double)>& place_at, const Vec3& place, double radius, bool at_end) {
+/// Places at t = 0, 1 / kTimes, ..., 1.
+using Path = std::array<Vec3, kTimes + 1>;
+
+double rise_for(const Path& path, const Vec3& place, double radius, bool at_end) {
   double rise = 0.0;
-  for (int i = 1; i < kTimes; ++i) {
+  for (std::size_t i = 1; i < kTimes; ++i) {
     const double t = static_cast<double>(i) / kTimes, bump = late_bump(at_end ? t : 1.0 - t);
-    const Vec3 at = place_at(t);
+    const Vec3 at = path[i];
+    if (bump < kLeastBump) continue;
     const double away = level_distance(at, place);
-    if (away >= radius || bump < kLeastBump) continue;
+    if (away >= radius) continue;
     const double missing = place.z + kClearance_m * std::min(1.0, away / kOverEdge_m) - at.z;
     rise = std::max(rise, missing / bump);
   }
@@ -39,10 +44,12 @@ double rise_for(const std::function<Vec3(double)>& place_at, const Vec3& place, 
 }  // namespace
 
 EdgeClearance::EdgeClearance(const std::function<Vec3(double)>& place_at, const Box& box) {
-  const Vec3 home = place_at(0.0), target = place_at(1.0);
+  Path path;
+  for (std::size_t i = 0; i <= kTimes; ++i) path[i] = place_at(static_cast<double>(i) / kTimes);
+  const Vec3 home = path.front(), target = path.back();
   const double radius = std::min(0.5 * box.depth_m + kHalfShelf_m, 0.6 * level_distance(home, target));
-  early_m_ = rise_for(place_at, home, radius, false);
-  late_m_ = rise_for(place_at, target, radius, true);
+  early_m_ = rise_for(path, home, radius, false);
+  late_m_ = rise_for(path, target, radius, true);
   const double together = largest_m();
   if (together > kMostRise_m) early_m_ *= kMostRise_m / together, late_m_ *= kMostRise_m / together;
 }

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
-#include <stdexcept>
 
 #include "reachcast/motion/encode.hpp"
 #include "reachcast/posture/linkage.hpp"
@@ -23,11 +21,6 @@ constexpr double kOpening_m = 0.03;       // how far each hand keeps from the si
 constexpr double kClosed = 0.15;          // share of an empty hand's way over which it opens, next to the object
 constexpr double kPast = 0.8;             // and by which the opening has gone
 constexpr double kMostBoxTurn_rad = 0.5;  // that recorded hands may add to a box's turn on its way
-
-constexpr int kLooks = 64;          // along a way, for obstacles
-constexpr double kTouch_m = 0.004;  // what stands on a surface may seem to lie in it by so much
-constexpr double kNear_m = 0.10;    // of its place, where the clearance shrinks to nothing
-constexpr double kHand_m = 0.09;    // a closed hand
 
 double heading(const Vec3& v) {
   return std::atan2(v.y, v.x);
@@ -67,10 +60,7 @@ Performance::Performance(const Plan& plan, const std::vector<Blend>& blends, con
       between_ankles_(0.5 * (stand_.ankle[0] + stand_.ankle[1])),
       linkage_(two_handed_linkage(), body),
       holder_(two_handed_linkage(), body, body_mass_kg) {
-  for (std::size_t i = 0; i < plan.stages.size(); ++i) {
-    const Stage& stage = plan.stages[i];
-    acts_.push_back({&stage, &blends[i], hand_ends(stage, task, body), path_of(blends[i].whole), {}, {}, 0.0, {}, {}});
-  }
+  for (std::size_t i = 0; i < plan.stages.size(); ++i) acts_.push_back(act_of(plan.stages[i], blends[i]));
   for (std::size_t i = 0; i < acts_.size(); ++i) join(i);
   find_openings();
 }
@@ -89,101 +79,54 @@ void Performance::find_openings() {
 void Performance::raise_over_edges() {
   for (Act& act : acts_) {
     if (!is_loaded(act.stage->phase)) continue;
-    const Vec3 from = place_pose(act.stage->object).position, to = place_pose(other(act.stage->object)).position;
-    act.clearance = EdgeClearance([&](double t) { return point_at(act.path, from, to, t); }, task_.object);
+    const auto place_at = [&](double t) { return point_at(act.path, act.from.position, act.to.position, t); };
+    act.clearance = EdgeClearance(place_at, task_.object);
   }
 }
 
-std::vector<std::size_t> Performance::go_round(const Obstacles& obstacles, double clearance_m,
-                                               const std::vector<std::size_t>& first_shapes) {
-  for (const Act& act : acts_) {
-    require_free_place(act.stage->object, obstacles);
-    if (is_loaded(act.stage->phase)) require_free_place(other(act.stage->object), obstacles);
+Performance::Act Performance::act_of(const Stage& stage, const Blend& blend) const {
+  Act act{.stage = &stage,
+          .blend = &blend,
+          .hands = hand_ends(stage, task_, body_),
+          .path = path_of(blend.whole),
+          .from = place_pose(stage.object),
+          .to = place_pose(other(stage.object)),
+          .turning = {},
+          .clearance = {},
+          .shape = {},
+          .half_first = Vec3(0.0),
+          .half_last = Vec3(0.0),
+          .opening_m = 0.0,
+          .curves_from = posture_curves(blend.from),
+          .curves_to = posture_curves(blend.to)};
+  if (is_loaded(stage.phase)) {
+    act.turning = turning_of(act);
+    return act;
   }
-  std::vector<std::size_t> taken = first_shapes;
-  for (std::size_t i = 0; i < acts_.size(); ++i) {
-    for (;; ++taken[i]) {
-      if (taken[i] == path_shapes().size()) {
-        throw std::invalid_argument("no way past the obstacles was found for the " +
-                                    std::string(is_loaded(acts_[i].stage->phase) ? "box" : "hands") + " in phase " +
-                                    std::string(phase_name(acts_[i].stage->phase)));
-      }
-      acts_[i].shape = path_shapes()[taken[i]];
-      if (is_free(acts_[i], obstacles, clearance_m)) break;
-    }
-  }
-  return taken;
-}
-
-void Performance::require_free_place(Place place, const Obstacles& obstacles) const {
-  const Box& box = task_.object;
-  const BoxPose pose = place_pose(place);
-  const Vec3 size = Vec3(box.width_m, box.depth_m, box.height_m) - 2.0 * kTouch_m;
-  if (!obstacles.meet({pose.position + Vec3(0, 0, 0.5 * box.height_m), glm::max(size, 0.001), pose.yaw_rad})) return;
-  throw std::invalid_argument(std::string("the box would stand in an obstacle at the ") +
-                              (place == Place::home ? "home" : "target") + ", by more than " +
-                              std::to_string(std::lround(1000.0 * kTouch_m)) + " mm");
-}
-
-bool Performance::is_free(const Act& act, const Obstacles& obstacles, double clearance_m) const {
-  const Box& box = task_.object;
-  const bool loaded = is_loaded(act.stage->phase);
-  const Vec3 first = hold_point(act.hands.first), last = hold_point(act.hands.last);
-  for (int i = 1; i < kLooks; ++i) {
-    const double t = static_cast<double>(i) / kLooks;
-    const BoxPose pose = loaded ? carried_object(act, t) : BoxPose{};
-    const Grips grips = loaded ? Grips{grip_of(box, pose, true), grip_of(box, pose, false)} : empty_grips(act, t);
-    const Vec3 hold = hold_point(grips);
-    const double away = std::min(glm::distance(hold, first), glm::distance(hold, last));
-    const double keep = 2.0 * (clearance_m * std::min(1.0, away / kNear_m) - kTouch_m);
-    const auto meets = [&](const Vec3& centre, const Vec3& size) {
-      return obstacles.meet({centre, glm::max(size + keep, 0.001), pose.yaw_rad});
-    };
-    if (loaded && meets(pose.position + Vec3(0, 0, 0.5 * box.height_m), {box.width_m, box.depth_m, box.height_m}))
-      return false;
-    if (away > kNear_m && (meets(grips[0], Vec3(kHand_m)) || meets(grips[1], Vec3(kHand_m)))) return false;
-  }
-  return true;
-}
-
-Vec3 Performance::towards_person(const Vec3& from, const Vec3& to) const {
-  const Vec3 middle = 0.5 * (from + to);
-  const Vec3 level(between_ankles_.x - middle.x, between_ankles_.y - middle.y, 0.0);
-  return glm::length(level) > 1e-6 ? glm::normalize(level) : Vec3(0, -1, 0);
-}
-
-Vec3 Performance::way(const Act& act, const Vec3& from, const Vec3& to, double t) const {
-  return shaped_point_at(act.path, from, to, act.shape, towards_person(from, to), t);
-}
-
-double Performance::bent_m() const {
-  double most = 0.0;
-  for (const Act& act : acts_) {
-    const Vec3 from = hold_point(act.hands.first), to = hold_point(act.hands.last);
-    most = std::max(most, bend_of(act.path, from, to, act.shape, towards_person(from, to)));
-  }
-  return most;
+  const auto half = [](const Grips& grips) { return 0.5 * (grips[1] - grips[0]); };
+  act.half_first = half(act.hands.first) - recorded_half(act, 0.0, hold_point(act.hands.first));
+  act.half_last = half(act.hands.last) - recorded_half(act, 1.0, hold_point(act.hands.last));
+  return act;
 }
 
 /// Coordinates where two stages meet are the mean of where the one ends and the other begins; where the hands hang they
-/// are those of this body standing at ease.
+/// are those of this body standing at ease. Basis functions add up to 1, so that to shift all control points is to
+/// shift the curve.
 void Performance::join(std::size_t i) {
-  const auto between = [&](const Blend& before, const Blend& after) {
-    return Eigen::VectorXd(0.5 * (coordinates_at(before, 1.0) + coordinates_at(after, 0.0)));
-  };
-  const auto at_ease = [&] { return encode_posture(two_handed_linkage(), standing_at_ease(body_)); };
   Act& act = acts_[i];
-  const Eigen::VectorXd first = coordinates_at(*act.blend, 0.0), last = coordinates_at(*act.blend, 1.0);
-  act.first_shift = act.last_shift = Eigen::VectorXd::Zero(first.size());
+  const auto at_ease = [&] { return encode_posture(two_handed_linkage(), standing_at_ease(body_)); };
   if (act.stage->phase == Phase::reach) {
-    act.first_shift = at_ease() - first;
+    const Eigen::VectorXd gap = at_ease() - act.curves_from.col(0);
+    act.curves_from.colwise() += gap;
   } else if (i > 0) {
-    act.first_shift = between(*acts_[i - 1].blend, *act.blend) - first;
+    Act& before = acts_[i - 1];
+    const Eigen::VectorXd gap = act.curves_from.col(0) - before.curves_to.col(kBasisCount - 1);
+    before.curves_to.colwise() += 0.5 * gap;
+    act.curves_from.colwise() -= 0.5 * gap;
   }
   if (act.stage->phase == Phase::return_) {
-    act.last_shift = at_ease() - last;
-  } else if (i + 1 < acts_.size()) {
-    act.last_shift = between(*act.blend, *acts_[i + 1].blend) - last;
+    const Eigen::VectorXd gap = at_ease() - act.curves_to.col(kBasisCount - 1);
+    act.curves_to.colwise() += gap;
   }
 }
 
@@ -197,7 +140,7 @@ double Performance::opening_of(const Act& act) const {
     const double moment = first + at * (last - first);
     const Anchors reached = anchors(empty_grips(open, at));
     HoldReport report;
-    (void)holder_.hold(decoded(moment, reached), reached, load(moment), report);
+    (void)holder_.hold(decoded(moment, reached), reached, load(moment, object(moment)), report);
     if (report.shortfall_m > 0.0) return 0.0;
   }
   return kOpening_m;
@@ -235,55 +178,61 @@ BoxPose Performance::object(double moment) const {
   return is_loaded(act.stage->phase) ? carried_object(act, time_in(act, moment)) : place_pose(act.stage->object);
 }
 
+Performance::Turning Performance::turning_of(const Act& act) const {
+  const Vec3 up(0.0, 0.0, task_.object.handle_height_m);
+  const auto against_person = [&](const BoxPose& pose) {
+    return pose.yaw_rad - facing_yaw(between_ankles_, pose.position + up);
+  };
+  Turning out;
+  out.first = against_person(act.from);
+  out.more = std::remainder(against_person(act.to) - out.first, 2.0 * kPi);
+  out.recorded = heading(separation_at(act.blend->whole, 0.0));
+  out.recorded_more = std::remainder(heading(separation_at(act.blend->whole, 1.0)) - out.recorded, 2.0 * kPi);
+  return out;
+}
+
 /// The box turns with the person who carries it, from its turn at the one place to its turn at the other, and as much
 /// more as recorded hands have turned on their way.
 BoxPose Performance::carried_object(const Act& act, double t) const {
-  const BoxPose from = place_pose(act.stage->object), to = place_pose(other(act.stage->object));
-  const Vec3 up(0.0, 0.0, task_.object.handle_height_m);
-  const Vec3 position = way(act, from.position, to.position, t) + Vec3(0, 0, act.clearance.rise_m(t));
-  const auto facing = [&](const Vec3& place) { return facing_yaw(between_ankles_, place + up); };
-  const double first = from.yaw_rad - facing(from.position);
-  const double more = std::remainder(to.yaw_rad - facing(to.position) - first, 2.0 * kPi);
   const double share = progress(act.path, t);
-  const auto recorded = [&](double at) { return heading(separation_at(act.blend->whole, at)); };
-  const double begun = recorded(0.0), whole = std::remainder(recorded(1.0) - begun, 2.0 * kPi);
-  const double turn = std::remainder(recorded(t) - begun - share * whole, 2.0 * kPi);
-  return {position, facing(position) + first + share * more + std::clamp(turn, -kMostBoxTurn_rad, kMostBoxTurn_rad)};
+  const Vec3 &from = act.from.position, &to = act.to.position;
+  const Vec3 learned = act.shape.is_straight() ? point_at(act.path, from, to, t, share) : way(act, from, to, t);
+  const Vec3 position = learned + Vec3(0, 0, act.clearance.rise_m(t));
+  const Turning& turning = act.turning;
+  const double recorded = heading(separation_at(act.blend->whole, t)) - turning.recorded;
+  const double turn = std::remainder(recorded - share * turning.recorded_more, 2.0 * kPi);
+  const double facing = facing_yaw(between_ankles_, position + Vec3(0.0, 0.0, task_.object.handle_height_m));
+  return {position,
+          facing + turning.first + share * turning.more + std::clamp(turn, -kMostBoxTurn_rad, kMostBoxTurn_rad)};
+}
+
+/// Half the way between the hands as recorded, on this body and turned to where it holds.
+Vec3 Performance::recorded_half(const Act& act, double t, const Vec3& hold) const {
+  return turned(body_.stature_m() * separation_at(act.blend->whole, t), facing_yaw(between_ankles_, hold));
 }
 
 /// The hold point goes along its path; the hands part from it as recorded, made to fit at both ends (2004, p. 549: the
 /// hand that is empty has a trajectory of its own).
 Grips Performance::empty_grips(const Act& act, double t) const {
-  const Vec3 from = hold_point(act.hands.first), to = hold_point(act.hands.last);
-  const Vec3 hold = way(act, from, to, t);
-  const auto recorded = [&](double at, const Vec3& held) {
-    return turned(body_.stature_m() * separation_at(act.blend->whole, at), facing_yaw(between_ankles_, held));
-  };
-  const Vec3 first = 0.5 * (act.hands.first[1] - act.hands.first[0]),
-             last = 0.5 * (act.hands.last[1] - act.hands.last[0]);
+  const Vec3 hold = way(act, hold_point(act.hands.first), hold_point(act.hands.last), t);
   const double share = smooth(t);
-  Vec3 half = recorded(t, hold) + (1.0 - share) * (first - recorded(0.0, from)) + share * (last - recorded(1.0, to));
+  Vec3 half = recorded_half(act, t, hold) + (1.0 - share) * act.half_first + share * act.half_last;
   const double away = act.stage->phase == Phase::return_ ? t : 1.0 - t;
   const double opening = act.opening_m * eased(0.0, kClosed, away) * (1.0 - eased(kClosed, kPast, away));
   if (const double size = glm::length(half); size > 1e-9) half *= 1.0 + opening / size;
   return {hold - half, hold + half};
 }
 
-Grips Performance::grips_of_act(const Act& act, double moment) const {
-  const double t = time_in(act, moment);
-  if (!is_loaded(act.stage->phase)) return empty_grips(act, t);
+/// On the object while the hands carry it; they open when the last stage is over.
+Grips Performance::grips(double moment, const BoxPose& object) const {
+  const Act& act = hands_act(moment);
+  if (!is_loaded(act.stage->phase)) return empty_grips(act, time_in(act, moment));
   Box held = task_.object;
-  const bool is_last = &act == &acts_.back();
-  if (is_last) {
+  if (&act == &acts_.back()) {
     const double share = eased(act.stage->body_last, static_cast<double>(plan_.end), moment);
     held.grip_distance_m += 2.0 * last_opening_m_ * share;
   }
-  const BoxPose pose = carried_object(act, t);
-  return {grip_of(held, pose, true), grip_of(held, pose, false)};
-}
-
-Grips Performance::grips(double moment) const {
-  return grips_of_act(hands_act(moment), moment);
+  return {grip_of(held, object, true), grip_of(held, object, false)};
 }
 
 Performance::Tracks Performance::tracks() const {
@@ -293,13 +242,15 @@ Performance::Tracks Performance::tracks() const {
   std::vector<Anchors> ends;
   std::vector<Decoded> learned;
   std::vector<Stance> stances;
+  ends.reserve(count), learned.reserve(count), stances.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     // The hands' opening after the last release is left out: it moves no trunk that can help it.
     const double moment = static_cast<double>(i) * spacing_s * frame_rate_;
     const double held = is_loaded(acts_.back().stage->phase) ? std::min(moment, acts_.back().stage->body_last) : moment;
-    ends.push_back(anchors(grips(held)));
+    const BoxPose box = object(moment);
+    ends.push_back(anchors(grips(held, box)));
     learned.push_back(decoded(moment, ends.back()));
-    stances.push_back(holder_.settle(learned.back(), ends.back(), load(moment)));
+    stances.push_back(holder_.settle(learned.back(), ends.back(), load(moment, box)));
   }
   Tracks tracks{{two_handed_linkage(), body_, learned, spacing_s}, {stances, spacing_s}};
   for (std::size_t i = 0; i < count; ++i) learned[i] = tracks.learned.at(static_cast<double>(i) * spacing_s);
@@ -319,16 +270,16 @@ Performance::Tracks Performance::tracks() const {
   return tracks;
 }
 
-Posture Performance::posture(double moment, const Tracks& tracks, HoldReport& report) const {
+Posture Performance::posture(double moment, const BoxPose& object, const Tracks& tracks, HoldReport& report) const {
   const double time_s = moment / frame_rate_;
-  return holder_.hold(tracks.learned.at(time_s), tracks.stance.at(time_s), anchors(grips(moment)), load(moment),
-                      report);
+  return holder_.hold(tracks.learned.at(time_s), tracks.stance.at(time_s), anchors(grips(moment, object)),
+                      load(moment, object), report);
 }
 
 HoldReport Performance::report_at(double moment) const {
   const Anchors at = anchors(grips(moment));
   HoldReport report;
-  (void)holder_.hold(decoded(moment, at), at, load(moment), report);
+  (void)holder_.hold(decoded(moment, at), at, load(moment, object(moment)), report);
   return report;
 }
 
@@ -341,14 +292,19 @@ Anchors Performance::anchors(const Grips& grips) const {
 Decoded Performance::decoded(double moment, const Anchors& anchors) const {
   const Act& act = body_act(moment);
   const double t = posture_time(*act.stage, moment), share = smooth(t);
-  const Eigen::VectorXd coordinates =
-      coordinates_at(*act.blend, t) + (1.0 - share) * act.first_shift + share * act.last_shift;
+  const LocalBasis local = bspline_local(t);
+  Eigen::VectorXd coordinates = Eigen::VectorXd::Zero(act.curves_from.rows());
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    const double weight = local.values[static_cast<std::size_t>(i)];
+    coordinates += weight * (1.0 - share) * act.curves_from.col(local.first + i) +
+                   weight * share * act.curves_to.col(local.first + i);
+  }
   return linkage_.decode(coordinates, anchors);
 }
 
-Load Performance::load(double moment) const {
+Load Performance::load(double moment, const BoxPose& object) const {
   const Vec3 middle(0, 0, 0.5 * task_.object.height_m);
-  return {object(moment).position + middle, load_share(plan_, frame_rate_, moment) * task_.object.mass_kg};
+  return {object.position + middle, load_share(plan_, frame_rate_, moment) * task_.object.mass_kg};
 }
 
 }  // namespace reachcast

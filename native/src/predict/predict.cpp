@@ -49,11 +49,12 @@ double body_mass(const Subject& subject) {
 
 /// `recorded` holds at least one motion.
 std::vector<std::string> why_outside(const PhaseColumns& recorded, const Query& query) {
-  double target = 1e9, home = 1e9;
-  for (std::size_t i = 0; i < recorded.size(); ++i) {
-    target = std::min(target, glm::distance(recorded.target[i], query.target));
-    home = std::min(home, glm::distance(recorded.home[i], query.home));
-  }
+  const auto nearest = [](const std::vector<Vec3>& places, const Vec3& wanted) {
+    double square = 1e18;
+    for (const Vec3& place : places) square = std::min(square, glm::dot(place - wanted, place - wanted));
+    return std::sqrt(square);
+  };
+  const double target = nearest(recorded.target, query.target), home = nearest(recorded.home, query.home);
   std::vector<std::string> reasons;
   const auto add = [&](const auto&... parts) {
     std::ostringstream out;
@@ -126,6 +127,9 @@ std::optional<Failure> perform(const Performance& performance, double frame_rate
   motion.box.clear();
   motion.postures.clear();
   motion.times_s.clear();
+  motion.box.reserve(motion.plan.end + 1);
+  motion.postures.reserve(motion.plan.end + 1);
+  motion.times_s.reserve(motion.plan.end + 1);
   const Performance::Tracks tracks = performance.tracks();
   Correction trunk{"trunk", 0.0, 0.0, 0}, unbalanced{"unbalanced", 0.0, 0.0, 0};
   std::optional<Failure> worst;
@@ -134,7 +138,7 @@ std::optional<Failure> perform(const Performance& performance, double frame_rate
     HoldReport report;
     motion.times_s.push_back(moment / frame_rate);
     motion.box.push_back(performance.object(moment));
-    motion.postures.push_back(performance.posture(moment, tracks, report));
+    motion.postures.push_back(performance.posture(moment, motion.box.back(), tracks, report));
     if (report.shortfall_m > 0.0 && (!worst || is_worse(motion.plan, {frame, report}, *worst)))
       worst = Failure{frame, report};
     trunk.amount_m = std::max(trunk.amount_m, report.trunk_shift_m);

@@ -88,6 +88,23 @@ TEST(Chain, AnyCoordinatesDecodeOntoAnyBodyWithExactLinks) {
   }
 }
 
+TEST(Chain, SomeStepsPlaceTheirJointsWhereAllStepsDo) {
+  Random random(9);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Case c = random_case(random, 2 + trial % 11);
+    const Chain chain(c.lengths, c.pivots);
+    std::vector<double> coordinates(chain.coordinate_count());
+    for (double& x : coordinates) x = uniform(random, -3, 3);
+    Points whole(c.points.size()), some(c.points.size());
+    chain.decode(c.points.front(), c.points.back(), coordinates, whole);
+    const std::vector<std::size_t> joints{1 + random() % (chain.links() - 1), 1 + random() % (chain.links() - 1)};
+    const std::vector<std::size_t> steps = chain.steps_to(joints);
+    chain.decode(c.points.front(), c.points.back(), coordinates, steps, some);
+    for (const std::size_t joint : joints) ASSERT_EQ(some[joint], whole[joint]) << trial;
+    ASSERT_LE(steps.size(), chain.links() - 1);
+  }
+}
+
 TEST(Chain, WeightedMeanOfCodesIsAChain) {
   Random random(3);
   for (int trial = 0; trial < 1000; ++trial) {

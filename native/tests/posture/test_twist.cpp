@@ -33,6 +33,10 @@ TEST(SmallestRotation, TurnsOneDirectionIntoTheOtherAlsoWhenTheyAreOpposite) {
   for (const Vec3& to : {Vec3(0, 0, 1), Vec3(1, 2, -0.5), Vec3(-1, 0, 0), Vec3(0, 0, -1)}) {
     for (const Vec3& from : {Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(0.3, -0.2, 0.9)}) {
       EXPECT_LT(glm::distance(smallest_rotation(from, to) * glm::normalize(from), glm::normalize(to)), 1e-9);
+      const Vec3 any(0.2, -0.7, 0.4);
+      EXPECT_LT(glm::distance(carried_along(glm::normalize(from), glm::normalize(to), any),
+                              smallest_rotation(from, to) * any),
+                1e-9);
     }
   }
 }

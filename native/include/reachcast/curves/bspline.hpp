@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 
 namespace reachcast {
@@ -10,7 +11,14 @@ namespace reachcast {
 inline constexpr Eigen::Index kBasisCount = 8;
 using BasisRow = Eigen::Matrix<double, 1, kBasisCount>;
 
-/// The basis functions at t (clamped into [0, 1]); they are >= 0 and sum to 1. Only the first is non-zero at 0, only
+/// The four basis functions that are not zero at t (clamped into [0, 1]), and the number of the first of them.
+struct LocalBasis {
+  Eigen::Index first = 0;
+  std::array<double, 4> values{};
+};
+[[nodiscard]] LocalBasis bspline_local(double t);
+
+/// All basis functions at t (clamped into [0, 1]); they are >= 0 and sum to 1. Only the first is non-zero at 0, only
 /// the last at 1.
 [[nodiscard]] BasisRow bspline_row(double t);
 

@@ -41,5 +41,7 @@ struct EndpointPath {
 
 /// Point at scaled time t; exactly `start` at 0 and `end` at 1. Deviation along the axis is left out.
 [[nodiscard]] Vec3 point_at(const EndpointPath& path, const Vec3& start, const Vec3& end, double t);
+/// The same where progress(path, t) is known.
+[[nodiscard]] Vec3 point_at(const EndpointPath& path, const Vec3& start, const Vec3& end, double t, double progress);
 
 }  // namespace reachcast

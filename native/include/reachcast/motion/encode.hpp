@@ -2,6 +2,7 @@
 /// A reach in, its motion code out (Faraway 2004, sections 3.1-3.3), and the parts of a code by name.
 #pragma once
 
+#include "reachcast/curves/bspline.hpp"
 #include "reachcast/curves/endpoint_path.hpp"
 #include "reachcast/motion/motion_code.hpp"
 
@@ -18,10 +19,14 @@ namespace reachcast {
 [[nodiscard]] EndpointPath path_of(const MotionCode& code);
 void set_path(MotionCode& code, const EndpointPath& path);
 
-/// Half the way from the left grip to the right one at scaled time t, in statures, as seen by a person who faces the hold
-/// point (facing_yaw). With the path of the hold point between them it is the path of either hand; on a box that both
-/// hold it is how the box turns.
+/// Half the way from the left grip to the right one at scaled time t, in statures, as seen by a person who faces the
+/// hold point (facing_yaw). With the path of the hold point between them it is the path of either hand; on a box that
+/// both hold it is how the box turns.
 [[nodiscard]] Vec3 separation_at(const MotionCode& code, double t);
+
+/// Control points of the posture coordinates (two_handed_linkage): a column for each of the eight B-splines.
+using PostureCurves = Eigen::Matrix<double, Eigen::Dynamic, kBasisCount>;
+[[nodiscard]] PostureCurves posture_curves(const MotionCode& code);
 
 /// Posture coordinates (two_handed_linkage) at scaled time t.
 [[nodiscard]] Eigen::VectorXd coordinates_at(const MotionCode& code, double t);

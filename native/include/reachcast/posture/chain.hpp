@@ -30,6 +30,15 @@ struct FlexionLimit {
   double max_rad = kPi;
 };
 
+/// The pivot of two sides with these lengths between two given points, on the side of the plane with this normal, which
+/// need be neither orthogonal to the line between them nor of unit length. Where the sides cannot span the ends they
+/// are taken as straight.
+[[nodiscard]] Vec3 pivot_point(const Vec3& start, const Vec3& end, double proximal_m, double distal_m,
+                               const Vec3& normal);
+/// The same for an end that lies `across_m` > 0 from the start in the direction `axis` of unit length.
+[[nodiscard]] Vec3 pivot_point(const Vec3& start, const Vec3& axis, double across_m, double proximal_m, double distal_m,
+                               const Vec3& normal);
+
 class Chain {
  public:
   /// `lengths`: n >= 1 positive link lengths, metres, at most 1e6. `pivots`: interior joints 1..n-1 in order of
@@ -52,6 +61,12 @@ class Chain {
   /// reach() to within 1e-9 m (it is then clamped), or std::invalid_argument says by how much it does not.
   void decode(const Vec3& start, const Vec3& end, std::span<const double> coordinates, std::span<Vec3> points) const;
 
+  /// Which pivots must be placed, and in which order, to know where these interior joints are.
+  [[nodiscard]] std::vector<std::size_t> steps_to(std::span<const std::size_t> joints) const;
+  /// Only these steps; the other interior points stay as they are.
+  void decode(const Vec3& start, const Vec3& end, std::span<const double> coordinates,
+              std::span<const std::size_t> steps, std::span<Vec3> points) const;
+
  private:
   struct Node {
     std::size_t first = 0, pivot = 0, last = 0;  ///< joints
@@ -60,6 +75,8 @@ class Chain {
     std::size_t offset = 0;  ///< of the first coordinate: 0 to 2 logits, then the normal
     int stretches = 0;
   };
+  void decode_node(const Node& node, std::span<const double> coordinates, std::span<Vec3> points) const;
+  void place_ends(const Vec3& start, const Vec3& end, std::span<Vec3> points) const;
   int build(std::size_t first, std::size_t last, const std::vector<std::size_t>& order,
             const std::map<std::size_t, FlexionLimit>& limits, Interval& reach);
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reachcast/posture/balance.hpp"
+#include "reachcast/posture/rigid_motion.hpp"
 #include "reachcast/posture/whole_body.hpp"
 
 namespace reachcast {
@@ -31,6 +32,8 @@ struct HoldReport {
                                 ///< too long with the feet on the floor, or would be without falling over
   Joint shortfall_from = Joint::right_shoulder;  ///< root of that limb
 };
+
+class MovedTrunk;
 
 class Holder {
  public:
@@ -57,16 +60,12 @@ class Holder {
   }
 
  private:
-  using Corners = std::array<Vec3, kLimbCount>;  ///< roots of the limbs, or their ends
-
   using Wrists = std::array<Vec3, 2>;  ///< from grip to wrist, left and right
 
-  [[nodiscard]] Corners roots_of(const Decoded& decoded) const;
-
   [[nodiscard]] Wrists limited_wrists(const Decoded& decoded, const Corners& roots, const Anchors& anchors) const;
-  [[nodiscard]] Posture spanned(const Decoded& decoded, const Corners& before, const Corners& roots,
-                                const Wrists& wrists, const Anchors& anchors) const;
-  void bring_within_reach(const Corners& before, Corners& roots, const Corners& ends, double margin_m) const;
+  [[nodiscard]] Posture spanned(const Decoded& decoded, const MovedTrunk& trunk, const Wrists& wrists,
+                                const Anchors& anchors) const;
+  void bring_within_reach(MovedTrunk& trunk, const Corners& ends, double margin_m) const;
   void measure_shortfall(Corners roots, const Corners& ends, HoldReport& report) const;
   double pulled_roots(const Corners& roots, const Corners& ends, std::size_t count, double margin_m,
                       Corners& wanted) const;

@@ -19,9 +19,17 @@ struct LimbPlane {
 /// A limb with the lengths that it has in `posture`; the limit applies when `limited`.
 [[nodiscard]] Chain chain_of(const LimbSpec& limb, const Posture& posture, bool limited);
 
-/// Puts hinge and end of the limb: the end at `end`, or where the limb stops short of it on the line from its root; the
-/// hinge in the plane, carried by the smallest rotation from its own axis to the limb's. The carrying keeps an elbow
-/// where it is relative to its arm when the arm points elsewhere than it did when the plane was learned.
+/// Hinge and end of a limb.
+struct SpannedLimb {
+  Vec3 hinge{0.0}, end{0.0};
+};
+
+/// Where hinge and end of a limb from `root` are, `chain` being its two links: the end at `end`, or where the limb
+/// stops short of it on the line from its root; the hinge in the plane, carried by the smallest rotation from its own
+/// axis to the limb's. The carrying keeps an elbow where it is relative to its arm when the arm points elsewhere than
+/// it did when the plane was learned.
+[[nodiscard]] SpannedLimb spanned_limb(const Chain& chain, const LimbPlane& plane, const Vec3& root, const Vec3& end);
+/// Puts them there.
 void span_limb(const LimbSpec& limb, const Chain& chain, const LimbPlane& plane, const Vec3& end, Posture& posture);
 
 }  // namespace reachcast

@@ -20,8 +20,11 @@ struct ChainSpec {
   std::vector<std::pair<Joint, FlexionLimit>> limits;  ///< hinges
 };
 
+inline constexpr std::size_t kPartCount = 2;
+
 /// A rigid part of which two joints are placed by a chain; one angle about the line through them places `apex`, and
-/// the riders follow.
+/// the riders follow. The mirror image of a part is
+/// a part again, made of the joints on the other side.
 struct RigidSpec {
   std::string_view name;
   Joint a, b, apex;
@@ -51,7 +54,7 @@ inline constexpr std::size_t kLimbCount = 4;
 /// the order primary chain and parts, the same of the mirror image, pointers, limbs; decoded in this order too.
 struct Linkage {
   ChainSpec primary;
-  std::vector<RigidSpec> parts;
+  std::array<RigidSpec, kPartCount> parts;
   std::vector<PointerSpec> pointers;
   std::array<LimbSpec, kLimbCount> limbs;  ///< left leg, right leg, left arm, right arm
 };

@@ -12,9 +12,9 @@
 namespace reachcast {
 
 struct TrunkPose {
-  Vec3 waist{0.0};                 ///< l5s1, body frame, metres
-  std::array<Quat, 2> parts{};     ///< turn of each of Linkage::parts against the body's stand
-  std::array<Vec3, 4> pointers{};  ///< Linkage::pointers that hang on a part, in that part's frame; unit length
+  Vec3 waist{0.0};                       ///< l5s1, body frame, metres
+  std::array<Quat, kPartCount> parts{};  ///< turn of each of Linkage::parts against the body's stand
+  std::array<Vec3, 4> pointers{};        ///< Linkage::pointers that hang on a part, in that part's frame; unit length
   std::array<LimbPlane, kLimbCount> planes;
   std::array<Vec3, 2> wrist_from_grip{};
 };

@@ -4,14 +4,30 @@
 /// what was learned ahead of the body serves to its sides (the 2004 paper, p. 551, expects no good prediction there).
 #pragma once
 
+#include <cmath>
+
 #include "reachcast/body/body.hpp"
 
 namespace reachcast {
 
 struct Anchors;
 
+/// A turn about the vertical, for many vectors.
+class Yaw {
+ public:
+  explicit Yaw(double rad) : cosine_(std::cos(rad)), sine_(std::sin(rad)) {}
+  [[nodiscard]] Vec3 operator()(const Vec3& v) const {
+    return {cosine_ * v.x - sine_ * v.y, sine_ * v.x + cosine_ * v.y, v.z};
+  }
+
+ private:
+  double cosine_, sine_;
+};
+
 /// A vector turned about the vertical.
-[[nodiscard]] Vec3 turned(const Vec3& v, double yaw_rad);
+[[nodiscard]] inline Vec3 turned(const Vec3& v, double yaw_rad) {
+  return Yaw(yaw_rad)(v);
+}
 
 /// Turn about the vertical, radians, from facing forward (y) to facing the hold point, seen from a little behind
 /// the ankles so that it is defined and steady for everything that hands can hold in front of the body.

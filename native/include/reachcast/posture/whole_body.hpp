@@ -43,13 +43,27 @@ class BodyLinkage {
   [[nodiscard]] Decoded decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted) const;
 
  private:
-  [[nodiscard]] Posture trunk_of(const double* stored, const Body& body, const Chain& primary,
-                                 const Anchors& anchors) const;
-  void place_pointed(const Anchors& anchors, const double* stored, Posture& posture) const;
+  /// What the primary chain needs to know of the body, or of its mirror image.
+  struct Side {
+    Chain primary;
+    std::vector<std::size_t> steps;             ///< of the chain, to where the parts are
+    std::array<Mat3, kPartCount> to_own_frame;  ///< of each part as it stands
+  };
+  /// Where a primary chain and its parts put the trunk.
+  struct Trunk {
+    Vec3 waist{0.0};
+    std::array<Quat, kPartCount> turns{};  ///< of the parts, against the stand
+  };
+  [[nodiscard]] Side side_of(const Body& body) const;
+  [[nodiscard]] Trunk trunk_of(const Side& side, const double* stored, const Anchors& anchors) const;
+  /// Pelvis, chest, and what points away from them.
+  void place_trunk(const Trunk& trunk, const double* pointers, Posture& posture) const;
 
   Linkage linkage_;
-  Body body_, mirror_body_;
-  Chain primary_, mirror_primary_;
+  Body body_;
+  std::array<Side, 2> sides_;  ///< the body and its mirror image
+  std::vector<double> pointer_lengths_;
+  std::size_t waist_;  ///< place of l5s1 in the primary chain
 };
 
 /// The chain with the lengths it has in `posture` (limits of the linkage apply when `limited`).

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reachcast/curves/endpoint_path.hpp"
+#include "reachcast/motion/encode.hpp"
 #include "reachcast/posture/hold.hpp"
 #include "reachcast/posture/trunk_pose.hpp"
 #include "reachcast/predict/approach.hpp"
@@ -49,7 +50,7 @@ class Performance {
   [[nodiscard]] double raised_m() const;
   [[nodiscard]] double bent_m() const;
   [[nodiscard]] BoxPose object(double moment) const;
-  [[nodiscard]] Grips grips(double moment) const;
+  [[nodiscard]] Grips grips(double moment) const { return grips(moment, object(moment)); }
 
   /// How the posture of this moment can be held, by itself.
   [[nodiscard]] HoldReport report_at(double moment) const;
@@ -60,20 +61,31 @@ class Performance {
     StanceTrack stance;
   };
   [[nodiscard]] Tracks tracks() const;
-  [[nodiscard]] Posture posture(double moment, const Tracks& tracks, HoldReport& report) const;
+  /// `object`: object(moment).
+  [[nodiscard]] Posture posture(double moment, const BoxPose& object, const Tracks& tracks, HoldReport& report) const;
 
  private:
+  /// How the object turns in a loaded stage, radians.
+  struct Turning {
+    double first = 0.0, more = 0.0;            ///< against the person who carries it: at the start, and over the way
+    double recorded = 0.0, recorded_more = 0;  ///< the same of the recorded hands
+  };
   struct Act {
     const Stage* stage = nullptr;
     const Blend* blend = nullptr;
     HandEnds hands;
-    EndpointPath path;        ///< of the hold point, or of the object's origin
-    EdgeClearance clearance;  ///< of a loaded stage
-    PathShape shape;
-    double opening_m = 0.0;                   ///< how far empty hands stay clear of the object's sides
-    Eigen::VectorXd first_shift, last_shift;  ///< of the posture's coordinates, so that stages meet
+    EndpointPath path;           ///< of the hold point, or of the object's origin
+    BoxPose from, to;            ///< of the object
+    Turning turning;             ///< of a loaded stage
+    EdgeClearance clearance;     ///< of a loaded stage
+    PathShape shape;             ///< round obstacles
+    Vec3 half_first, half_last;  ///< of an empty stage: what its ends lack of half the recorded way between the hands
+    double opening_m = 0.0;      ///< how far empty hands stay clear of the object's sides
+    PostureCurves curves_from, curves_to;  ///< of the blend, shifted so that stages meet
   };
 
+  [[nodiscard]] Act act_of(const Stage& stage, const Blend& blend) const;
+  [[nodiscard]] Turning turning_of(const Act& act) const;
   void join(std::size_t act);
   void find_openings();
   [[nodiscard]] bool is_free(const Act& act, const Obstacles& obstacles, double clearance_m) const;
@@ -86,10 +98,11 @@ class Performance {
   [[nodiscard]] double time_in(const Act& act, double moment) const;
   [[nodiscard]] BoxPose carried_object(const Act& act, double t) const;
   [[nodiscard]] Grips empty_grips(const Act& act, double t) const;
-  [[nodiscard]] Grips grips_of_act(const Act& act, double moment) const;
+  [[nodiscard]] Vec3 recorded_half(const Act& act, double t, const Vec3& hold) const;
+  [[nodiscard]] Grips grips(double moment, const BoxPose& object) const;
   [[nodiscard]] Anchors anchors(const Grips& grips) const;
   [[nodiscard]] Decoded decoded(double moment, const Anchors& anchors) const;
-  [[nodiscard]] Load load(double moment) const;
+  [[nodiscard]] Load load(double moment, const BoxPose& object) const;
   [[nodiscard]] BoxPose place_pose(Place place) const;
 
   const Plan& plan_;
