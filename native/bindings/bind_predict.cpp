@@ -7,8 +7,8 @@
 #include "array_checks.hpp"
 #include "body_conversions.hpp"
 #include "module.hpp"
-#include "reachcast/predict/cross_validate.hpp"
 #include "reachcast/predict/predict.hpp"
+#include "scheme_conversions.hpp"
 
 namespace py = pybind11;
 using namespace reachcast;
@@ -66,43 +66,13 @@ py::dict events(const Motion& motion) {
 }
 
 Motion predict(const Corpus& corpus, const Subject& subject, const Task& task, const std::optional<Body>& body,
-               double frame_rate, int k, std::optional<double> duration) {
+               double frame_rate, std::optional<int> k, std::optional<double> duration, const py::object& scheme,
+               const py::kwargs& unknown) {
+  refuse_unknown(unknown, "predict", "body, frame_rate, k, duration, scheme");
+  const PredictOptions options{.frame_rate = frame_rate, .scheme = to_scheme(k, scheme), .duration_s = duration};
   const py::gil_scoped_release without_gil;
   const Body mover = body ? *body : Body::from_stature(subject.stature_m, subject.sex);
-  return predict_transfer(corpus, subject, task, mover,
-                          {.frame_rate = frame_rate, .neighbours = k, .duration_s = duration});
-}
-
-py::list cross_validation(const Corpus& corpus, const std::vector<py::dict>& schemes, const std::string& leave_out) {
-  if (leave_out != "motion" && leave_out != "subject") {
-    throw std::invalid_argument("leave_out is '" + leave_out + "'; it must be 'motion' or 'subject'");
-  }
-  std::vector<Scheme> wanted;
-  for (const py::dict& scheme : schemes) {
-    for (const auto& [key, value] : scheme) {
-      if (!py::isinstance<py::str>(key) || key.cast<std::string>() != "k" || !py::isinstance<py::int_>(value)) {
-        throw std::invalid_argument("schemes: each is a dict like {'k': 5} with a whole number; found " +
-                                    py::repr(scheme).cast<std::string>());
-      }
-    }
-    wanted.push_back({.neighbours = scheme.contains("k") ? scheme["k"].cast<int>() : Scheme{}.neighbours});
-  }
-  std::vector<SchemeError> rows;
-  {
-    const py::gil_scoped_release without_gil;
-    rows = cross_validate(corpus, wanted, leave_out == "motion" ? LeaveOut::motion : LeaveOut::subject);
-  }
-  py::list table;
-  for (const SchemeError& row : rows) {
-    py::dict entry;
-    entry["k"] = row.scheme.neighbours;
-    entry["motions"] = row.motions;
-    entry["out_of_reach"] = row.out_of_reach;
-    entry["median"] = row.median_m;
-    entry["quartiles"] = py::make_tuple(row.lower_quartile_m, row.upper_quartile_m);
-    table.append(entry);
-  }
-  return table;
+  return predict_transfer(corpus, subject, task, mover, options);
 }
 
 void bind_task(py::module_& m) {
@@ -216,15 +186,11 @@ void bind_results(py::module_& m) {
 void bind_predict(py::module_& m) {
   bind_task(m);
   bind_results(m);
-  m.def("predict", &predict, py::arg("corpus"), py::arg("subject"), py::arg("task"), py::arg("body") = py::none(),
-        py::kw_only(), py::arg("frame_rate") = 24.0, py::arg("k") = 5, py::arg("duration") = py::none(),
-        "The transfer phase: Corpus, Subject, Task, Body -> Motion. Without a body, published proportions of the "
-        "subject. k: "
-        "neighbours in the mean; duration: seconds of the transfer, else the neighbours' mean.");
-  m.def("cross_validate", &cross_validation, py::arg("corpus"), py::arg("schemes"), py::arg("leave_out") = "motion",
-        "How well transfers are predicted from the others. schemes: list of dicts with k; leave_out: 'motion' (and its "
-        "mirror "
-        "image) or 'subject'. Returns one dict per scheme: k, motions, out_of_reach, median and quartiles in metres of "
-        "the mean "
-        "distance over time and 23 joints, on the proportions of the subject's stature.");
+  m.def(
+      "predict", &predict, py::arg("corpus"), py::arg("subject"), py::arg("task"), py::arg("body") = py::none(),
+      py::kw_only(), py::arg("frame_rate") = 24.0, py::arg("k") = py::none(), py::arg("duration") = py::none(),
+      py::arg("scheme") = py::none(),
+      "The transfer phase: Corpus, Subject, Task, Body -> Motion. Without a body, published proportions of the "
+      "subject. k: neighbours in the mean, 5 unless the scheme says otherwise; duration: seconds of the transfer, else "
+      "the neighbours' mean; scheme: which motions are averaged and how, a dict as cross_validate takes it.");
 }

@@ -69,9 +69,10 @@ std::vector<std::string> why_outside(const PhaseColumns& recorded, const Query& 
   };
   if (target > kFarFromData_m) add("the nearest recorded target is ", target, " m away");
   if (home > kFarFromData_m) add("the nearest recorded home is ", home, " m away");
-  const double shortest = recorded.sorted_stature_m.front(), tallest = recorded.sorted_stature_m.back();
-  if (query.stature_m < shortest - kStatureMargin_m || query.stature_m > tallest + kStatureMargin_m) {
-    add("stature ", query.stature_m, " m lies outside the recorded ", shortest, " to ", tallest, " m");
+  const std::vector<double>& statures = recorded.all.by(Trait::stature);
+  const double shortest = statures.front(), tallest = statures.back();
+  if (query.subject.stature_m < shortest - kStatureMargin_m || query.subject.stature_m > tallest + kStatureMargin_m) {
+    add("stature ", query.subject.stature_m, " m lies outside the recorded ", shortest, " to ", tallest, " m");
   }
   return reasons;
 }
@@ -259,8 +260,8 @@ Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task
                         const PredictOptions& options) {
   check(task);
   check(subject, options);
-  const Query query{Phase::transfer, hold_point(task.object, task.home), hold_point(task.object, task.target),
-                    subject.stature_m};
+  const Query query{Phase::transfer, hold_point(task.object, task.home), hold_point(task.object, task.target), subject,
+                    options.duration_s};
   for (const auto& [name, place] : {std::pair{"home", task.home}, {"target", task.target}}) {
     if (place.z < subject.stature_m && std::hypot(place.x, place.y) < 0.5 * task.object.depth_m) {
       fail("the ", name, " is ", std::hypot(place.x, place.y),
@@ -275,8 +276,7 @@ Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task
   const std::shared_ptr<const MotionTable> table = corpus.table();
   if (table->motions().empty()) fail("the corpus ", corpus.path().string(), " holds no motions; import some first");
   Motion motion;
-  const Blend blend =
-      blend_neighbours(*table, query, options.neighbours, [&](std::int64_t id) { return corpus.code(id); });
+  const Blend blend = blend_neighbours(*table, query, options.scheme, [&](std::int64_t id) { return corpus.code(id); });
   motion.outside_data = why_outside(table->of(query.phase), query);
   motion.neighbours = blend.neighbours;
   if (!(blend.whole.duration_s >= 0.05 && blend.whole.duration_s <= 60.0)) {

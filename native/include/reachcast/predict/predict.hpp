@@ -14,7 +14,7 @@ namespace reachcast {
 
 struct PredictOptions {
   double frame_rate = 24.0;          ///< frames per second of the result, 1 to 1000
-  int neighbours = 5;                ///< k of the mean, >= 1
+  Scheme scheme;                     ///< which motions are averaged, and how
   std::optional<double> duration_s;  ///< of the transfer itself; else the neighbours' mean. 0.1 to 60
 };
 
