@@ -82,9 +82,11 @@ bool Replay::perform(const EndpointPath& path, const Coordinates& coordinates, R
 double mean_distance(const ReplayPostures& a, const ReplayPostures& b) {
   double sum = 0.0;
   for (std::size_t f = 0; f < a.size(); ++f) {
-    for (std::size_t j = 0; j < kRecordedJointCount; ++j) sum += glm::distance(a[f][j], b[f][j]);
+    double at_time = 0.0;
+    for (std::size_t j = 0; j < kRecordedJointCount; ++j) at_time += glm::distance(a[f][j], b[f][j]);
+    sum += f == 0 || f + 1 == a.size() ? 0.5 * at_time : at_time;
   }
-  return sum / static_cast<double>(a.size() * kRecordedJointCount);
+  return sum / static_cast<double>((a.size() - 1) * kRecordedJointCount);
 }
 
 }  // namespace reachcast

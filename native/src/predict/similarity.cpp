@@ -201,23 +201,23 @@ std::vector<std::uint32_t> Search::nearest(const Scheme& scheme, End end) {
   Comparison compared = comparison(scheme, end);
   const bool by_rank = scheme.measure == Measure::ranks;
   Best best(std::min(count(scheme.mirrored), static_cast<std::size_t>(scheme.k)));
+  const auto look_at = [&](std::uint32_t at, std::size_t task_rank, double scaled_task) {
+    if (by_rank && compared.is_too_far(at)) return;
+    const double score = by_rank ? compared.rank_sum(at, task_rank) : compared.squared_sum(at, scaled_task);
+    if (by_rank && best.is_full() && score > best.worst()) compared.rule_out(at, task_rank, best.worst());
+    best.offer(score, at);
+  };
   if (!scheme.task) {
     for (std::uint32_t at = 0; at < columns_.size(); ++at) {
-      if (!takes_part(at, scheme.mirrored)) continue;
-      best.offer(by_rank ? compared.rank_sum(at, 0) : compared.squared_sum(at, 0.0), at);
+      if (takes_part(at, scheme.mirrored)) look_at(at, 0, 0.0);
     }
     return std::move(best).in_order();
   }
   for (std::size_t number = 0; const TaskOrder::Step* near = step(end, scheme.mirrored, number); ++number) {
-    const double by_task = by_rank ? static_cast<double>(near->rank) : compared.scaled_task(near->squared_distance);
-    if (best.is_full() && best.worst() < by_task) break;  // the other parts only add to it
-    if (!by_rank) {
-      best.offer(compared.squared_sum(near->at, by_task), near->at);
-    } else if (!compared.is_too_far(near->at)) {
-      const double sum = compared.rank_sum(near->at, near->rank);
-      if (best.is_full() && sum > best.worst()) compared.rule_out(near->at, near->rank, best.worst());
-      best.offer(sum, near->at);
-    }
+    const double scaled_task = compared.scaled_task(near->squared_distance);
+    // The other parts only add to the task's.
+    if (best.is_full() && best.worst() < (by_rank ? static_cast<double>(near->rank) : scaled_task)) break;
+    look_at(near->at, near->rank, scaled_task);
   }
   return std::move(best).in_order();
 }
