@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A stand-in for reachcast_core with the same names: a statue whose arms alone carry a box along an arc.
 
-Lets the add-on's reading and writing be tested without the native module or a corpus. Not a predictor.
+Lets the add-on's reading and writing be tested without a corpus. Not a predictor. Rigs are posed by the real module.
 """
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from typing import Any
 from unittest import mock
 
 import numpy as np
+from reachcast import native
 from reachcast.rigs.joints import INDEX, JOINTS
 
 SECONDS = 2.0
@@ -85,6 +86,7 @@ class Neighbour:
     mirrored: bool = False
     weight: float = 1.0
     distances: Any = field(default_factory=lambda: {"target": 0.1, "home": 0.0, "stature": 0.02})
+    phase: str = "transfer"
 
 
 @dataclass
@@ -94,6 +96,7 @@ class Motion:
     box_positions: np.ndarray
     box_quaternions: np.ndarray
     events: dict[str, int]
+    phases: list[tuple[str, int, int]]
     joints: tuple[str, ...] = JOINTS
     neighbours: list[Neighbour] = field(default_factory=lambda: [Neighbour()])
     outside_data: bool = False
@@ -116,7 +119,8 @@ def predict(corpus: Corpus, subject: Subject, task: Task, body: Body | None = No
     _place_arm(positions, "left", middle - handle)
     _place_arm(positions, "right", middle + handle)
     return Motion(positions, np.arange(count) / frame_rate, box, turned,
-                  {"grasp": 0, "lift_off": 2, "placed": count - 4, "release": count - 3, "end": count - 1})
+                  {"grasp": 0, "lift_off": 2, "placed": count - 4, "release": count - 3, "end": count - 1},
+                  [("transfer", 2, count - 4)])
 
 
 def _place_arm(positions: np.ndarray, word: str, grips: np.ndarray) -> None:
@@ -150,4 +154,6 @@ def installed() -> Any:
     module = ModuleType("reachcast_core")
     for name in ("Body", "Subject", "Box", "Task", "Corpus", "Motion", "predict", "JOINTS"):
         setattr(module, name, globals()[name])
+    for name in ("RestRig", "rotation_values"):
+        setattr(module, name, getattr(native.core(), name))
     return mock.patch.dict(sys.modules, {"reachcast_core": module})

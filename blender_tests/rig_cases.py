@@ -10,15 +10,19 @@ import fake_core
 import numpy as np
 from mathutils import Euler, Matrix, Vector
 from reachcast.rigs.joints import JOINTS, SIDES
-from reachcast.rigs.limbs import LEAST_REST_BEND_DEG
-from reachcast.rigs.rotations import normalise
-from reachcast.rigs.skeleton import Skeleton, rest_bend, rest_hinge
+from reachcast.rigs.rotations import cross, normalise, reject
+from reachcast.rigs.skeleton import Skeleton
 from reachcast.scene.mannequin import build_mannequin
 from reachcast.scene.measure import sample
 
 #: Degrees that a segment swings about each of its axes in a random motion.
 _SWING = {"pelvis": 25, "spine": 30, "neck": 20, "head": 25, "clavicle": 12, "upper_arm": 55, "forearm": 40,
           "hand": 25, "thigh": 40, "shin": 30, "foot": 15}
+
+
+#: A limb bent by less has no hinge of its own at rest.
+LEAST_REST_BEND_DEG = 8.0
+EULER_ORDERS = ("XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX")
 
 
 def mannequin(stature: float = 1.75) -> bpy.types.Object:
@@ -105,13 +109,30 @@ def _turned(skeleton: Skeleton, segment: str, angles: np.ndarray) -> Matrix:
     name, _, side = segment.partition(".")
     if name not in ("forearm", "shin"):
         return Euler(angles).to_matrix().to_4x4()
-    names = ("shoulder", "elbow", "wrist") if name == "forearm" else ("hip", "knee", "ankle")
-    first, middle = (skeleton.joint(f"{dict(SIDES)[side]}_{joint}") for joint in names[:2])
-    upper, ahead = normalise(middle - first), skeleton.axes[1]
-    straight = rest_hinge(upper, skeleton.axes) if name == "forearm" else normalise(np.cross(upper, -ahead))
-    hinge = rest_bend(skeleton.joints, side, names, straight, LEAST_REST_BEND_DEG)
+    hinge = rest_hinge(skeleton, name, dict(SIDES)[side])
     own = skeleton.bones.rotations[skeleton.segments[segment]].T @ hinge
     return Matrix.Rotation(0.1 + abs(float(angles[0])), 4, Vector(own))
+
+
+def rest_hinge(skeleton: Skeleton, name: str, word: str) -> np.ndarray:
+    """(3,) the axis of an elbow ("forearm") or a knee ("shin") at rest: of its bend, or of a straight limb's."""
+    names = ("shoulder", "elbow", "wrist") if name == "forearm" else ("hip", "knee", "ankle")
+    first, middle, last = (skeleton.joint(f"{word}_{joint}") for joint in names)
+    upper, lower = normalise(middle - first), normalise(last - middle)
+    _, ahead, up = skeleton.axes
+    straight = cross(upper, ahead if name == "forearm" else -ahead)
+    if name == "forearm" and np.linalg.norm(straight) <= 0.2:  # it points ahead: the elbow bends upwards
+        straight = cross(upper, up)
+    bend = cross(upper, lower)
+    is_bent = np.linalg.norm(bend) > math.sin(math.radians(LEAST_REST_BEND_DEG)) and bend @ straight > 0.0
+    return normalise(reject(bend if is_bent else straight, upper))
+
+
+def turn_about(axis: object, angle: float) -> np.ndarray:
+    """(3, 3) by Rodrigues' formula in double precision, which mathutils lacks."""
+    x, y, z = normalise(np.asarray(axis, float))
+    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.eye(3) + math.sin(angle) * skew + (1.0 - math.cos(angle)) * (skew @ skew)
 
 
 def random_direction(seed: int) -> np.ndarray:

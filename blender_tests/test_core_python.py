@@ -61,7 +61,7 @@ class Temporary(Refusing):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def made_reaches(self, count: int = 3) -> list[Any]:
+    def made_reaches(self, count: int = 3, phase: str = "transfer") -> list[Any]:
         """Statues whose arms are lifted: enough to store and to predict from."""
         reaches = []
         for number in range(count):
@@ -72,7 +72,7 @@ class Temporary(Refusing):
             positions = np.repeat(posture[None], 25, axis=0)
             positions[:, lifted] += np.array([0.0, 0.35, 0.1]) + t * np.array([0.0, 0.02, 0.4 + 0.1 * number])
             clip = rc.Clip(list(rc.JOINTS), positions, 24.0, "statue")
-            reaches.append(rc.cut_reach(clip, 0, 24, rc.Subject(stature), "transfer", f"statue {number}", floor_z=0.0))
+            reaches.append(rc.cut_reach(clip, 0, 24, rc.Subject(stature), phase, f"statue {number}", floor_z=0.0))
         return reaches
 
     def made_corpus(self) -> Any:
@@ -142,7 +142,9 @@ class Prediction(Temporary):
                 length = np.linalg.norm(at[f"{side}_{a}"] - at[f"{side}_{b}"], axis=1)
                 self.assertLess(np.ptp(length), EXACT_M)
             held = slice(motion.events["grasp"], motion.events["release"] + 1)
-            handle = motion.box_positions + [sign * task.object.grip_distance, 0.0, task.object.handle_height]
+            yaw = 2.0 * np.arctan2(motion.box_quaternions[:, 3], motion.box_quaternions[:, 0])
+            along = np.stack([np.cos(yaw), np.sin(yaw), np.zeros(frames)], axis=1)
+            handle = motion.box_positions + sign * task.object.grip_distance * along + [0, 0, task.object.handle_height]
             np.testing.assert_allclose(at[f"{side}_grip"][held], handle[held], atol=EXACT_M)
         np.testing.assert_allclose(motion.box_positions[-1], task.target, atol=EXACT_M)
 
@@ -152,9 +154,25 @@ class Prediction(Temporary):
         self.assertAlmostEqual(sum(near.weight for near in motion.neighbours), 1.0)
         self.assertEqual(set(motion.neighbours[0].distances), {"target", "home", "stature"})
         self.assertIsInstance(motion.outside_data, bool)
-        self.assertEqual(motion.duration, 1.5)
-        self.assertEqual(motion.phases[0][0], "transfer")
+        self.assertEqual([(phase, last - first) for phase, first, last in motion.phases], [("transfer", 1.5 * 24)])
         self.assertEqual(list(motion.events), ["grasp", "lift_off", "placed", "release", "end"])
+
+    def test_phases_follow_one_another(self) -> None:
+        task = rc.Task([0, 0.42, 0.7], [0, 0.42, 1.1])
+        self.made_corpus().close()
+        with rc.Corpus.open_for_writing(self.folder / "statues.sqlite") as corpus:
+            reaches = self.made_reaches(phase="reach")
+            corpus.add_reaches(reaches + [reach.reversed() for reach in reaches])
+        corpus = rc.Corpus.open(self.folder / "statues.sqlite")
+        motion = rc.predict(corpus, rc.Subject(1.7), task, k=1, phases=["reach", "transfer", "return"],
+                            duration={"reach": 1.0})
+        self.assertEqual([phase for phase, _, _ in motion.phases], ["reach", "transfer", "return"])
+        self.assertEqual({near.phase for near in motion.neighbours}, {"reach", "transfer", "return"})
+        self.assertEqual(list(motion.events), ["grasp", "lift_off", "placed", "release", "end"])
+        self.assertEqual(motion.phases[0][1:], (0, 24))
+        for phases, reason in ((["transfer", "reach"], "at rest"), ([], "empty"), (["lift"], "'lift'")):
+            self.refuses(reason, call=lambda: rc.predict(corpus, rc.Subject(1.7), task, phases=phases))
+        self.refuses("retrieve", call=lambda: rc.predict(corpus, rc.Subject(1.7), task, duration={"retrieve": 1.0}))
 
     def test_options_out_of_range_are_named(self) -> None:
         corpus, who, what = self.made_corpus(), rc.Subject(1.7), rc.Task([0, 0.42, 0.7], [0, 0.42, 1.1])

@@ -10,7 +10,7 @@ import corpora
 import numpy as np
 from lift_cases import Place, lift_scene, rig_of
 from reachcast.rigs.joints import INDEX, JOINTS, SIDES
-from reachcast.rigs.retarget import posed_joints, retarget
+from reachcast.rigs.retarget import retarget
 from reachcast.rigs.rotations import normalise, reject
 from reachcast.rigs.skeleton import Skeleton
 from reachcast.scene.measure import LEAST_BEND_DEG, Samples, elbow_flexion, knee_flexion, sample
@@ -87,7 +87,7 @@ class Elbows(unittest.TestCase):
                 wrong = mirrored_through(joints, word, ("shoulder", "elbow", "wrist"))
                 self.assertGreaterEqual(right_way.min(), 0.0)
                 np.testing.assert_allclose(elbow_flexion(of_joints(wrong), side), -right_way, atol=1e-6)
-                followed = posed_joints(skeleton, retarget(skeleton, wrong))  # the bones' own hinges follow
+                followed = retarget(skeleton, wrong).joints()  # the bones' own hinges follow
                 self.assertLess(elbow_flexion(of_joints(followed), side).min(), -LEAST_BEND_DEG)
 
 

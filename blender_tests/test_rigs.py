@@ -11,13 +11,13 @@ import unittest
 import bpy
 import numpy as np
 from mathutils import Euler, Matrix
-from reachcast.rigs import bone_map, channels, rotations
 from reachcast.rigs.joints import INDEX, SIDES
-from reachcast.rigs.retarget import EXACT_JOINTS, posed_joints, retarget
+from reachcast.rigs.retarget import EXACT_JOINTS, retarget
+from reachcast.rigs.rotations import turn
 from reachcast.scene.measure import (Samples, forearm_twists, elbow_flexion, fastest_joint, knee_flexion, sample)
 from reachcast.scene.read_rig import read_rig
 from reachcast.scene.write_motion import write_rig_action
-from rig_cases import RIGS, mannequin, random_motion, set_rest_arms, set_rolls
+from rig_cases import EULER_ORDERS, RIGS, mannequin, random_motion, set_rest_arms, set_rolls, turn_about
 
 #: Metres. Keys and Blender's own pose are single precision; errors add up over nine bones.
 JOINT_TOLERANCE = 1e-5
@@ -90,7 +90,7 @@ class RoundTrip(unittest.TestCase):
                 self.round_trip(rig, seed=4)
 
     def test_rotation_modes(self) -> None:
-        for mode in (*channels.EULER_ORDERS, "AXIS_ANGLE"):
+        for mode in (*EULER_ORDERS, "AXIS_ANGLE"):
             with self.subTest(mode=mode):
                 rig = mannequin()
                 for bone in rig.pose.bones:
@@ -148,6 +148,35 @@ class RoundTrip(unittest.TestCase):
                             self.assertLess(np.degrees(np.abs(twist)).max(), 90.0)
 
 
+class NativeRigs(unittest.TestCase):
+    def test_keyed_bones_turns_and_heads_are_those_of_the_skeleton(self) -> None:
+        for rig_name, make in RIGS.items():
+            with self.subTest(rig=rig_name):
+                rig = make()
+                skeleton = read_rig(rig)
+                joints = random_motion(rig, skeleton, seed=3, frames=5)
+                pose = retarget(skeleton, joints)
+                self.assertEqual(pose.keyed, skeleton.keyed)
+                self.assertEqual(pose.turns.shape, (len(skeleton.keyed), 5, 3, 3))
+                self.assertEqual(pose.heads.shape, (len(skeleton.keyed), 5, 3))
+                np.testing.assert_allclose(pose.joints()[:, EXACT_JOINTS], joints[:, EXACT_JOINTS], atol=1e-6)
+                again = retarget(skeleton, pose.joints())
+                np.testing.assert_allclose(again.joints()[:, EXACT_JOINTS], pose.joints()[:, EXACT_JOINTS], atol=1e-9)
+
+    def test_joints_and_bones_that_do_not_fit_are_refused(self) -> None:
+        skeleton = read_rig(mannequin())
+        joints = np.repeat(skeleton.joints[None], 3, axis=0)
+        pose = retarget(skeleton, joints)
+        for wrong, words in ((joints[:, :26], r"joints has shape \(3, 26, 3\)"), (joints[:0], "joints has 0 frames"),
+                             (np.where(np.arange(3)[:, None, None] == 1, np.nan, joints), r"joints\[1, 0, 0\] is nan")):
+            with self.assertRaisesRegex(ValueError, words):
+                retarget(skeleton, wrong)
+        with self.assertRaisesRegex(ValueError, "bone -1 is not one of the keyed"):
+            pose.rotation_values(-1, "XYZ")
+        with self.assertRaisesRegex(ValueError, "mode is 'XYX'"):
+            pose.rotation_values(pose.keyed[0], "XYX")
+
+
 class StraightLimbs(unittest.TestCase):
     def test_limbs_that_straighten_and_bend_again_keep_their_hinge(self) -> None:
         """A squat that passes through straight knees and arms: flexion never changes sign, nothing spins."""
@@ -172,12 +201,12 @@ class StraightLimbs(unittest.TestCase):
                 skeleton = read_rig(make())
                 joints = np.repeat(skeleton.joints[None], 48, axis=0)
                 hip, knee, ankle = (INDEX[f"left_{name}"] for name in ("hip", "knee", "ankle"))
-                axis = rotations.normalise(joints[0, ankle] - joints[0, hip])
-                round_it = rotations.axis_rotation(axis, 3.0 * np.sin(np.linspace(0.0, math.pi, 48)))
-                joints[:, knee] = joints[:, hip] + rotations.turn(round_it, joints[:, knee] - joints[:, hip])
+                axis = joints[0, ankle] - joints[0, hip]
+                round_it = np.stack([turn_about(axis, 3.0 * math.sin(t)) for t in np.linspace(0.0, math.pi, 48)])
+                joints[:, knee] = joints[:, hip] + turn(round_it, joints[:, knee] - joints[:, hip])
                 pose = retarget(skeleton, joints)
                 for segment in ("foot.L", "toe.L"):
-                    turns = pose.turns[skeleton.segments[segment]]
+                    turns = pose.turns[pose.keyed.index(skeleton.segments[segment])]
                     self.assertLess(np.abs(turns - np.eye(3)).max(), 1e-9, segment)
 
     def test_rest_joints_give_the_rest_pose(self) -> None:
@@ -185,12 +214,12 @@ class StraightLimbs(unittest.TestCase):
             with self.subTest(rig=rig_name):
                 skeleton = read_rig(make())
                 pose = retarget(skeleton, np.repeat(skeleton.joints[None], 3, axis=0))
-                for bone, turns in pose.turns.items():
+                for bone, turns in zip(pose.keyed, pose.turns):
                     segment = {bone: segment for segment, bone in skeleton.segments.items()}.get(bone, "")
                     if segment.startswith(("forearm", "hand")):
                         continue  # the palms turn to face each other
                     self.assertLess(np.abs(turns - np.eye(3)).max(), REST_TOLERANCE, skeleton.bones.names[bone])
-                off = posed_joints(skeleton, pose)[0] - skeleton.joints
+                off = pose.joints()[0] - skeleton.joints
                 self.assertLess(np.abs(off[EXACT_JOINTS, :]).max(), 1e-9)
 
 
@@ -217,7 +246,7 @@ def _squat(rig: bpy.types.Object, frames: int) -> np.ndarray:
     joints = np.repeat(skeleton.joints[None], frames, axis=0)
     body = skeleton.to_body(joints)
     bend = np.radians(70.0) * np.maximum(0.0, np.cos(np.linspace(0.0, 2.0 * math.pi, frames)))
-    turned = np.stack([rotations.axis_rotation(np.array([1.0, 0.0, 0.0]), angle) for angle in bend])
+    turned = np.stack([turn_about((1, 0, 0), angle) for angle in bend])
     for _, word in SIDES:
         chain = [body[0, INDEX[f"{word}_{name}"]] for name in ("shoulder", "elbow", "wrist", "grip")]
         upper, lower, hand = (np.linalg.norm(b - a) for a, b in zip(chain, chain[1:]))
@@ -229,8 +258,8 @@ def _squat(rig: bpy.types.Object, frames: int) -> np.ndarray:
         hip, knee, ankle, ball = (body[0, INDEX[f"{word}_{name}"]].copy() for name in
                                   ("hip", "knee", "ankle", "ball"))
         thigh, shin = np.linalg.norm(knee - hip), np.linalg.norm(ankle - knee)
-        ahead = np.stack([rotations.axis_rotation(np.array([1.0, 0.0, 0.0]), 0.5 * angle) for angle in bend]) @ down
-        behind = np.stack([rotations.axis_rotation(np.array([1.0, 0.0, 0.0]), -0.5 * angle) for angle in bend]) @ down
+        ahead = np.stack([turn_about((1, 0, 0), 0.5 * angle) for angle in bend]) @ down
+        behind = np.stack([turn_about((1, 0, 0), -0.5 * angle) for angle in bend]) @ down
         body[:, INDEX[f"{word}_knee"]] = hip + thigh * ahead
         body[:, INDEX[f"{word}_ankle"]] = hip + thigh * ahead + shin * behind
         body[:, INDEX[f"{word}_ball"]] = body[:, INDEX[f"{word}_ankle"]] + ball - ankle

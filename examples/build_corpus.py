@@ -5,8 +5,10 @@
     /usr/bin/python3 examples/build_corpus.py --mocap ../shared/mocap --out corpus.sqlite
 
 Reads the folders omomo/ and lieblich_lifting/ of a mocap collection, cuts phases in which the feet stay where they are,
-and adds each with its mirror image. A recording that is left out is listed with the reason. Adapt `omomo_phases` or
-`lieblich_phases` to your own recordings: each yields one Candidate per phase.
+and adds each with its mirror image. Nobody was recorded on the way back from a shelf, so each is also added as it would
+be played backwards: a transfer as a retrieve, a reach as a return (--forwards leaves that out). A recording that is
+left out is listed with the reason. Adapt `omomo_phases` or `lieblich_phases` to your own recordings: each yields one
+Candidate per phase.
 """
 
 import argparse
@@ -274,6 +276,7 @@ def main():
     parser.add_argument("--mocap", type=Path, required=True, help="folder with omomo/ and lieblich_lifting/")
     parser.add_argument("--out", type=Path, required=True, help="the corpus file to create")
     parser.add_argument("--dry-run", action="store_true", help="report only, write nothing")
+    parser.add_argument("--forwards", action="store_true", help="add nothing that is played backwards")
     options = parser.parse_args()
     readers = {"omomo": omomo_phases, "lieblich_lifting": lieblich_phases}
     candidates = []
@@ -288,7 +291,9 @@ def main():
     if not options.dry_run:
         corpus = rc.Corpus.create(str(options.out))
         corpus.add_reaches(accepted)
-        print(f"{options.out}: {len(corpus)} motions, mirror images included")
+        if not options.forwards:
+            corpus.add_reaches([reach.reversed() for reach in accepted])
+        print(f"{options.out}: {len(corpus)} motions, mirror images and what is played backwards included")
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ import bpy
 
 from .operators.predict_motion import REACHCAST_OT_predict_motion
 from .properties import needs
-from .scene.predict_action import EVENTS
 
 _LABELS = 0.3  #: part of the panel's width that the words take
 
@@ -25,7 +24,7 @@ class REACHCAST_PT_lift(_Tab, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.reachcast
         column = self.layout.column(align=True)
-        for words, name in (("Rig", "rig"), ("carries", "box"), ("from", "home"), ("to", "shelf"),
+        for words, name in (("Rig", "rig"), ("does", "errand"), ("with", "box"), ("from", "home"), ("to", "shelf"),
                             ("as in", "corpus")):
             _sentence_part(column, settings, words, name)
         blocking = [need for need in needs(settings) if need.reason]
@@ -69,10 +68,11 @@ class REACHCAST_PT_result(_Tab, bpy.types.Panel):
             return
         column = self.layout.column(align=True)
         _words(column, "Action", action.name)
-        for event in EVENTS:
+        for event in action["reachcast_events"].split(", "):
             _words(column, event.replace("_", " ").capitalize(), f"frame {action[event]}")
-        _words(column, "Landing", f"{action['reachcast_landing_error_m'] * 1000.0:.2f} mm off")
-        _words(column, "Grip", f"{action['reachcast_grip_error_m'] * 1000.0:.2f} mm off")
+        for words, name in (("Landing", "landing"), ("Grip", "grip")):
+            if (error := action.get(f"reachcast_{name}_error_m")) is not None:
+                _words(column, words, f"{error * 1000.0:.2f} mm off")
         if action["reachcast_outside_data"]:
             why = action["reachcast_outside_reasons"] or "the target"
             _lines(self.layout, context, f"Outside the recorded data, take it with care: {why}", "ERROR")
@@ -86,7 +86,7 @@ class REACHCAST_PT_result(_Tab, bpy.types.Panel):
 def _predicted_action(context: bpy.types.Context) -> bpy.types.Action | None:
     rig = context.scene.reachcast.rig
     action = rig.animation_data.action if rig and rig.animation_data else None
-    return action if action is not None and "reachcast_landing_error_m" in action else None
+    return action if action is not None and "reachcast_events" in action else None
 
 
 def _sentence_part(column: bpy.types.UILayout, settings: bpy.types.PropertyGroup, words: str, name: str) -> None:

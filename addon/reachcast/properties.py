@@ -27,9 +27,25 @@ def _is_mesh(_settings: bpy.types.PropertyGroup, item: bpy.types.Object) -> bool
     return item.type == "MESH"
 
 
+#: What can be chosen in the panel -> the phases it means. Scripts may give any other order.
+ERRANDS = {
+    "LIFT": ("transfer",),
+    "REACH_LIFT_RETURN": ("reach", "transfer", "return"),
+    "FETCH": ("reach", "retrieve", "return"),
+    "THERE_AND_BACK": ("reach", "transfer", "return", "reach", "retrieve", "return"),
+}
+
+
 class ReachcastSettings(bpy.types.PropertyGroup):
     rig: bpy.props.PointerProperty(
         name="Rig", type=bpy.types.Object, poll=_is_armature, description="The armature that carries the box")
+    errand: bpy.props.EnumProperty(
+        name="Errand", default="LIFT", description="What the person does, from the first frame to the last",
+        items=(("LIFT", "Lift", "Hands on the box at its home; carries it to the shelf and lets go"),
+               ("REACH_LIFT_RETURN", "Reach, lift, return", "Empty hands reach for the box, carry it to the shelf and "
+                                                            "go back to the sides"),
+               ("FETCH", "Fetch", "Empty hands reach for the box on the shelf, carry it home and go back to the sides"),
+               ("THERE_AND_BACK", "There and back", "Reach, lift and return, then fetch it again")))
     box: bpy.props.PointerProperty(
         name="Box", type=bpy.types.Object, poll=_is_mesh,
         description="The mesh that is carried; its hands hold it left and right, along its own x. "

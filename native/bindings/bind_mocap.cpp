@@ -182,6 +182,9 @@ void bind_reach(py::module_& m) {
       .def(
           "mirrored", [](const Reach& reach) { return reachcast::mirrored(reach); },
           "The same motion by the mirror image of the person.")
+      .def(
+          "reversed", [](const Reach& reach) { return reachcast::reversed(reach); },
+          "The same motion played backwards: a transfer becomes a retrieve, a reach a return, and the other way round.")
       .def("__len__", &Reach::frames)
       .def("__repr__", [](const Reach& reach) {
         return "<Reach " + std::string(reachcast::phase_name(reach.phase)) + " of " + reach.origin + ": " +

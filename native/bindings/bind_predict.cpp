@@ -2,7 +2,9 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <map>
 #include <sstream>
+#include <variant>
 
 #include "array_checks.hpp"
 #include "body_conversions.hpp"
@@ -55,24 +57,62 @@ py::array_t<double> box_quaternions(const Motion& motion) {
 }
 
 py::dict events(const Motion& motion) {
-  const Events& e = motion.events;
   py::dict out;
-  out["grasp"] = e.grasp;
-  out["lift_off"] = e.lift_off;
-  out["placed"] = e.placed;
-  out["release"] = e.release;
-  out["end"] = e.end;
+  for (const Event& event : motion.plan.events) out[py::str(event.name)] = event.frame;
   return out;
 }
 
-Motion predict(const Corpus& corpus, const Subject& subject, const Task& task, const std::optional<Body>& body,
-               double frame_rate, std::optional<int> k, std::optional<double> duration, const py::object& scheme,
-               const py::kwargs& unknown) {
-  refuse_unknown(unknown, "predict", "body, frame_rate, k, duration, scheme");
-  const PredictOptions options{.frame_rate = frame_rate, .scheme = to_scheme(k, scheme), .duration_s = duration};
+/// Python's neighbour also knows the phase it served.
+struct PhaseNeighbour {
+  Phase phase;
+  Neighbour neighbour;
+};
+
+std::vector<PhaseNeighbour> neighbours(const Motion& motion) {
+  std::vector<PhaseNeighbour> out;
+  for (const PhaseNeighbours& set : motion.neighbours) {
+    for (const Neighbour& n : set.neighbours) out.push_back({set.phase, n});
+  }
+  return out;
+}
+
+Phase to_phase(const std::string& name) {
+  const std::optional<Phase> phase = find_phase(name);
+  if (!phase) throw std::invalid_argument("phase is '" + name + "'; it must be reach, transfer, return or retrieve");
+  return *phase;
+}
+
+std::vector<Phase> to_phases(const std::vector<std::string>& names) {
+  std::vector<Phase> phases;
+  for (const std::string& name : names) phases.push_back(to_phase(name));
+  return phases;
+}
+
+/// A number is meant for every phase.
+std::map<Phase, double> to_durations(const std::variant<std::monostate, double, std::map<std::string, double>>& given,
+                                     const std::vector<Phase>& phases) {
+  std::map<Phase, double> durations;
+  if (const auto* seconds = std::get_if<double>(&given)) {
+    for (const Phase phase : phases) durations[phase] = *seconds;
+  }
+  if (const auto* each = std::get_if<std::map<std::string, double>>(&given)) {
+    for (const auto& [name, seconds] : *each) durations[to_phase(name)] = seconds;
+  }
+  return durations;
+}
+
+Motion predict_motion(const Corpus& corpus, const Subject& subject, const Task& task, const std::optional<Body>& body,
+                      double frame_rate, std::optional<int> k, const std::vector<std::string>& phases,
+                      const std::variant<std::monostate, double, std::map<std::string, double>>& duration,
+                      const py::object& given_scheme, const py::kwargs& unknown) {
+  refuse_unknown(unknown, "predict", "body, frame_rate, k, phases, duration, scheme");
+  const Scheme scheme = to_scheme(k, given_scheme);
   const py::gil_scoped_release without_gil;
   const Body mover = body ? *body : Body::from_stature(subject.stature_m, subject.sex);
-  return predict_transfer(corpus, subject, task, mover, options);
+  const std::vector<Phase> order = to_phases(phases);
+  return predict(
+      corpus, subject, task, mover,
+      {.frame_rate = frame_rate, .scheme = scheme, .phases = order, .durations_s = to_durations(duration, order)});
 }
 
 void bind_task(py::module_& m) {
@@ -120,25 +160,28 @@ void bind_task(py::module_& m) {
 }
 
 void bind_results(py::module_& m) {
-  py::class_<Neighbour>(m, "Neighbour", "A motion of the corpus that took part in a prediction.")
-      .def_readonly("id", &Neighbour::id)
-      .def_readonly("origin", &Neighbour::origin)
-      .def_readonly("mirrored", &Neighbour::is_mirrored)
-      .def_readonly("weight", &Neighbour::weight)
+  py::class_<PhaseNeighbour>(m, "Neighbour", "A motion of the corpus that took part in a prediction.")
+      .def_property_readonly("id", [](const PhaseNeighbour& n) { return n.neighbour.id; })
+      .def_property_readonly("phase", [](const PhaseNeighbour& n) { return std::string(phase_name(n.phase)); })
+      .def_property_readonly("origin", [](const PhaseNeighbour& n) { return n.neighbour.origin; })
+      .def_property_readonly("mirrored", [](const PhaseNeighbour& n) { return n.neighbour.is_mirrored; })
+      .def_property_readonly(
+          "weight", [](const PhaseNeighbour& n) { return n.neighbour.weight; }, "Those of one phase add up to 1.")
       .def_property_readonly(
           "distances",
-          [](const Neighbour& n) {
+          [](const PhaseNeighbour& n) {
             py::dict out;
-            out["target"] = n.target_distance_m;
-            out["home"] = n.home_distance_m;
-            out["stature"] = n.stature_difference_m;
+            out["target"] = n.neighbour.target_distance_m;
+            out["home"] = n.neighbour.home_distance_m;
+            out["stature"] = n.neighbour.stature_difference_m;
             return out;
           },
-          "metres: between the targets, the homes, the statures")
-      .def("__repr__", [](const Neighbour& n) {
+          "metres: between the ends of the motions, their beginnings, the statures")
+      .def("__repr__", [](const PhaseNeighbour& n) {
         std::ostringstream out;
-        out << "Neighbour(id=" << n.id << ", weight=" << n.weight << ", origin='" << n.origin
-            << (n.is_mirrored ? "', mirrored)" : "')");
+        out << "Neighbour(id=" << n.neighbour.id << ", phase='" << phase_name(n.phase)
+            << "', weight=" << n.neighbour.weight << ", origin='" << n.neighbour.origin
+            << (n.neighbour.is_mirrored ? "', mirrored)" : "')");
         return out.str();
       });
 
@@ -162,22 +205,25 @@ void bind_results(py::module_& m) {
           "times", [](const Motion& motion) { return numbers_array(motion.times_s); }, "(F,), seconds")
       .def_property_readonly("box_positions", &box_positions, "(F, 3), origin of the box")
       .def_property_readonly("box_quaternions", &box_quaternions, "(F, 4), w, x, y, z")
-      .def_property_readonly("events", &events, "frame index of grasp, lift_off, placed, release, end")
+      .def_property_readonly(
+          "events", &events,
+          "dict: frame of grasp, lift_off, placed, release, end, as far as they occur; a second time as grasp_2, ...")
       .def_property_readonly(
           "phases",
           [](const Motion& motion) {
-            return std::vector<std::tuple<std::string, std::size_t, std::size_t>>{
-                {"transfer", motion.events.lift_off, motion.events.placed}};
+            std::vector<std::tuple<std::string, std::size_t, std::size_t>> out;
+            for (const Stage& stage : motion.plan.stages)
+              out.emplace_back(phase_name(stage.phase), stage.first, stage.last);
+            return out;
           },
-          "list of (phase, first frame, last frame)")
-      .def_readonly("duration", &Motion::duration_s, "seconds from lift_off to placed")
-      .def_readonly("neighbours", &Motion::neighbours)
+          "list of (phase, first frame, last frame): while the hands move")
+      .def_property_readonly("neighbours", &neighbours, "list of Neighbour, phase by phase, heaviest first")
       .def_property_readonly("outside_data", [](const Motion& motion) { return !motion.outside_data.empty(); })
       .def_readonly("outside_reasons", &Motion::outside_data)
       .def_readonly("corrections", &Motion::corrections)
       .def("__repr__", [](const Motion& motion) {
         return "Motion(" + std::to_string(motion.postures.size()) + " frames, " +
-               std::to_string(motion.neighbours.size()) + " neighbours)";
+               std::to_string(motion.plan.stages.size()) + (motion.plan.stages.size() == 1 ? " phase)" : " phases)");
       });
 }
 
@@ -187,10 +233,15 @@ void bind_predict(py::module_& m) {
   bind_task(m);
   bind_results(m);
   m.def(
-      "predict", &predict, py::arg("corpus"), py::arg("subject"), py::arg("task"), py::arg("body") = py::none(),
-      py::kw_only(), py::arg("frame_rate") = 24.0, py::arg("k") = py::none(), py::arg("duration") = py::none(),
+      "predict", &predict_motion, py::arg("corpus"), py::arg("subject"), py::arg("task"), py::arg("body") = py::none(),
+      py::kw_only(), py::arg("frame_rate") = 24.0, py::arg("k") = py::none(),
+      py::arg("phases") = std::vector<std::string>{"transfer"}, py::arg("duration") = py::none(),
       py::arg("scheme") = py::none(),
-      "The transfer phase: Corpus, Subject, Task, Body -> Motion. Without a body, published proportions of the "
-      "subject. k: neighbours in the mean, 5 unless the scheme says otherwise; duration: seconds of the transfer, else "
-      "the neighbours' mean; scheme: which motions are averaged and how, a dict as cross_validate takes it.");
+      "Corpus, Subject, Task, Body -> Motion. Without a body, published proportions of the subject. k: neighbours in "
+      "the mean, 5 unless the scheme says otherwise; scheme: which motions are averaged and how, a dict as "
+      "cross_validate takes it. phases: any of 'reach' (empty hands from the sides to the object), 'transfer' (home to "
+      "target), "
+      "'return' (back to the sides), 'retrieve' (target to home) in an order that can be performed; the object stands "
+      "where the first loaded phase takes it from, at the target when there is none. duration: seconds of each phase, "
+      "or a dict from phase to seconds; else the neighbours' mean.");
 }

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..properties import core_sex, missing
+from ..properties import ERRANDS, core_sex, missing
 from ..scene.predict_action import PredictionResult, predict_motion
 
 
@@ -26,7 +26,7 @@ class REACHCAST_OT_predict_motion(bpy.types.Operator):
             result = predict_motion(
                 settings.rig, settings.shelf, corpus=settings.corpus, home=settings.home, box=settings.box,
                 stature=settings.stature or None, sex=core_sex(settings.sex), bone_map=settings.bone_map or None,
-                scene=context.scene)
+                phases=ERRANDS[settings.errand], scene=context.scene)
         except (ValueError, RuntimeError) as error:  # a mistake of the user's; a file that cannot be used
             context.window_manager.reachcast_problem = str(error)
             self.report({"ERROR"}, str(error))
@@ -38,5 +38,6 @@ class REACHCAST_OT_predict_motion(bpy.types.Operator):
 
 def summary(result: PredictionResult) -> str:
     where = "outside the recorded data" if result.outside_data else "within the recorded data"
-    return (f"'{result.action}': frames {result.first_frame} to {result.frames['end']}, lands within "
-            f"{result.errors['landing'] * 1000:.2f} mm, from {len(result.neighbours)} motions, {where}")
+    landing = f", lands within {result.errors['landing'] * 1000:.2f} mm" if "landing" in result.errors else ""
+    return (f"'{result.action}': frames {result.first_frame} to {result.frames['end']}{landing}, from "
+            f"{len(result.neighbours)} motions, {where}")

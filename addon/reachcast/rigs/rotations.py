@@ -33,6 +33,13 @@ def turn(rotation: Array, vectors: Array) -> Array:
     return np.einsum("...ij,...j->...i", rotation, vectors)
 
 
+def orthonormal(matrices: Array) -> Array:
+    """The nearest rotations to matrices within 1e-4 of one, to rounding: two of Newton's steps to the polar factor."""
+    for _ in range(2):
+        matrices = 1.5 * matrices - 0.5 * (matrices @ transpose(matrices) @ matrices)
+    return matrices
+
+
 def transpose(rotation: Array) -> Array:
     return np.swapaxes(rotation, -1, -2)
 
@@ -44,52 +51,6 @@ def dot(a: Array, b: Array) -> Array:
 def reject(vectors: Array, axis: Array) -> Array:
     """The part of each vector across the unit `axis`."""
     return vectors - axis * dot(vectors, axis)[..., None]
-
-
-def any_across(axis: Array) -> Array:
-    """Some unit vector across each unit `axis`, the same for the same axis."""
-    least = np.eye(3)[np.argmin(np.abs(axis), axis=-1)]
-    return normalise(cross(axis, least))
-
-
-def frame(primary: Array, secondary: Array) -> Array:
-    """Right-handed frames with columns: along `primary` exactly, towards `secondary`, and their cross product."""
-    first = normalise(primary)
-    across = reject(np.broadcast_to(secondary, first.shape), first)
-    lost = dot(across, across) < 1e-18
-    if np.any(lost):
-        across = np.where(lost[..., None], any_across(first), across)
-    second = normalise(across)
-    out = np.empty(first.shape + (3,))
-    out[..., 0], out[..., 1], out[..., 2] = first, second, cross(first, second)
-    return out
-
-
-def axis_rotation(axis: Array, angle: Array) -> Array:
-    """Turns by `angle` (...,) radians about the unit `axis` (..., 3)."""
-    axis, angle = np.asarray(axis, float), np.asarray(angle, float)
-    skew = _cross_matrix(axis)
-    sine, versine = np.sin(angle)[..., None, None], (1.0 - np.cos(angle))[..., None, None]
-    return np.eye(3) + sine * skew + versine * (skew @ skew)
-
-
-def aim(start: Array, end: Array) -> Array:
-    """The smallest turns that bring unit vectors `start` onto `end`; half a turn about some axis when they oppose."""
-    start, end = np.broadcast_arrays(start, end)
-    cosine = dot(start, end)
-    skew = _cross_matrix(cross(start, end))
-    opposed = cosine < -1.0 + 1e-12
-    scale = 1.0 / np.where(opposed, 1.0, 1.0 + cosine)
-    turned = np.eye(3) + skew + scale[..., None, None] * (skew @ skew)
-    if not np.any(opposed):
-        return turned
-    half_turn = axis_rotation(any_across(start), np.full(cosine.shape, np.pi))
-    return np.where(opposed[..., None, None], half_turn, turned)
-
-
-def signed_angle(start: Array, end: Array, axis: Array) -> Array:
-    """Angle (...,) in (-pi, pi] from `start` to `end` seen along the unit `axis` they are across."""
-    return np.arctan2(dot(axis, cross(start, end)), dot(start, end))
 
 
 def twist_angle(rotation: Array, axis: Array) -> Array:

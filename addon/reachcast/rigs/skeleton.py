@@ -6,14 +6,15 @@ Body frame: origin on the floor midway between the ankles, x to the subject's ri
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from .bone_map import PARENTS, BoneMap
 from .joints import INDEX, JOINTS, SIDES
-from .rotations import Array, dot, normalise
+from .rotations import Array, cross
 
 MAX_LEAN_DEG = 60.0
 #: The lowest bone of the feet is at most this part of the height above the floor.
@@ -22,6 +23,25 @@ _SOLE = 0.05
 _C7T1_TO_TRAGION, _TRAGION_TO_NASION = (0.034, 0.074), (0.054, 0.008)
 _HALF_HAND = 0.25          #: from grip to the front of the hand, as a part of wrist to grip; as native/src/body has it
 _LEAST_TRIANGLE = 0.004    #: height of the flattest triangle of joints that still shows a turn, as a part of the height
+
+#: Joint centres at the heads of bones, and the segments of these bones.
+_HEADS: dict[str, str] = {
+    **{f"{word}_{joint}": f"{segment}.{side}" for side, word in SIDES for joint, segment in (
+        ("ankle", "foot"), ("knee", "shin"), ("hip", "thigh"), ("shoulder", "upper_arm"), ("elbow", "forearm"),
+        ("wrist", "hand"), ("clavicle", "clavicle"))},
+    "l5s1": "spine", "c7t1": "neck",
+}
+_AT_HEADS = [INDEX[joint] for joint in _HEADS]
+#: What the motion turns between two joints, and what with three.
+_LINKS: tuple[tuple[str, str], ...] = (
+    ("l5s1", "c7t1"), ("left_hip", "right_hip"),
+    *((f"{word}_{start}", f"{word}_{end}") for _, word in SIDES for start, end in (
+        ("clavicle", "shoulder"), ("shoulder", "elbow"), ("elbow", "wrist"), ("wrist", "grip"), ("hip", "knee"),
+        ("knee", "ankle"), ("ankle", "ball"))))
+_LINK_ENDS = np.array([[INDEX[end] for end in link] for link in _LINKS])
+_TRIANGLES = (("pelvis", ("left_hip", "right_hip", "l5s1")), ("chest", ("l5s1", "c7t1", "left_clavicle")),
+              ("chest", ("l5s1", "c7t1", "right_clavicle")))
+_TRIANGLE_CORNERS = np.array([[INDEX[corner] for corner in corners] for _, corners in _TRIANGLES])
 
 
 @dataclass(frozen=True)
@@ -37,15 +57,17 @@ class Bones:
     axes: Array               #: (3, 3): columns are the armature's own x, y, z
     scale: float = 1.0        #: world metres per unit of the armature
 
-    def index(self, name: str) -> int:
-        return self.names.index(name)
+    @cached_property
+    def _index(self) -> dict[str, int]:
+        return {name: number for number, name in enumerate(self.names)}
 
-    def ancestors(self, bone: int) -> list[int]:
+    def index(self, name: str) -> int:
+        return self._index[name]
+
+    def ancestors(self, bone: int) -> Iterator[int]:
         """From the bone's parent up to the root."""
-        chain = []
         while (bone := self.parents[bone]) >= 0:
-            chain.append(bone)
-        return chain
+            yield bone
 
     def family(self, bones: set[int]) -> list[int]:
         """These bones and all their descendants."""
@@ -87,12 +109,12 @@ class Skeleton:
 
 def build_skeleton(name: str, bones: Bones, bone_map: BoneMap) -> Skeleton:
     """A checked skeleton; ValueError says in one sentence which bone cannot serve and why."""
-    fitted = bone_map.fitted(bones.names, name)
+    fitted = bone_map.fitted(frozenset(bones.names), name)
     segments = {segment: bones.index(bone) for segment, bone in fitted.segments.items()}
     _check_hierarchy(name, bones, segments)
     keyed = sorted({bone for mapped in segments.values() for bone in (mapped, *bones.ancestors(mapped))})
-    top = _extreme(max, bones, {segments["head"]})
-    floor = _floor(bones, _extreme(min, bones, {segments["foot.L"], segments["foot.R"]}), top)
+    top = float(_heights(bones, {segments["head"]}).max())
+    floor = _floor(bones, float(_heights(bones, {segments["foot.L"], segments["foot.R"]}).min()), top)
     joints = _main_joints(bones, fitted, segments)
     axes = _body_axes(name, joints)
     _check_lengths(name, joints, top - floor)
@@ -104,9 +126,10 @@ def build_skeleton(name: str, bones: Bones, bone_map: BoneMap) -> Skeleton:
                     top - floor)
 
 
-def _extreme(choose: Callable[[Iterable[float]], float], bones: Bones, roots: set[int]) -> float:
-    """The lowest or highest end of these bones and all below them."""
-    return choose(float(ends[bone, 2]) for bone in bones.family(roots) for ends in (bones.heads, bones.tails))
+def _heights(bones: Bones, roots: set[int]) -> Array:
+    """Of the heads and tails of these bones and all below them."""
+    family = bones.family(roots)
+    return np.concatenate([bones.heads[family, 2], bones.tails[family, 2]])
 
 
 def _floor(bones: Bones, lowest: float, top: float) -> float:
@@ -130,10 +153,8 @@ def _check_hierarchy(name: str, bones: Bones, segments: dict[str, int]) -> None:
 def _main_joints(bones: Bones, bone_map: BoneMap, segments: dict[str, int]) -> Array:
     joints = np.full((len(JOINTS), 3), np.nan)
     heads, tails = bones.heads, bones.tails
+    joints[_AT_HEADS] = heads[[segments[segment] for segment in _HEADS.values()]]
     for side, word in SIDES:
-        for joint, segment in (("ankle", "foot"), ("knee", "shin"), ("hip", "thigh"), ("shoulder", "upper_arm"),
-                               ("elbow", "forearm"), ("wrist", "hand"), ("clavicle", "clavicle")):
-            joints[INDEX[f"{word}_{joint}"]] = heads[segments[f"{segment}.{side}"]]
         toe = segments.get(f"toe.{side}")
         joints[INDEX[f"{word}_ball"]] = tails[segments[f"foot.{side}"]] if toe is None else heads[toe]
         grip = bone_map.grip(side)
@@ -142,52 +163,44 @@ def _main_joints(bones: Bones, bone_map: BoneMap, segments: dict[str, int]) -> A
             raise ValueError(f"Bone map '{bone_map.name}': grip.{side} is on bone '{grip.bone}', "
                              f"which is not the hand bone or below it")
         joints[INDEX[f"{word}_grip"]] = (1.0 - grip.along) * heads[bone] + grip.along * tails[bone]
-    joints[INDEX["l5s1"]] = heads[segments["spine"]]
-    joints[INDEX["c7t1"]] = heads[segments["neck"]]
     joints[INDEX["suprasternale"]] = 0.5 * (joints[INDEX["left_clavicle"]] + joints[INDEX["right_clavicle"]])
     return joints
 
 
 def _body_axes(name: str, joints: Array) -> Array:
-    across = joints[INDEX["right_hip"]] - joints[INDEX["left_hip"]]
-    right = np.array([across[0], across[1], 0.0])
-    if np.linalg.norm(right) < 0.5 * np.linalg.norm(across) or np.linalg.norm(across) < 1e-6:
+    across = (joints[INDEX["right_hip"]] - joints[INDEX["left_hip"]]).tolist()
+    level, length = math.hypot(*across[:2]), math.hypot(*across)
+    if level < 0.5 * length or length < 1e-6:
         raise ValueError(f"Rig '{name}': its hips do not lie side by side, so it has no left and right")
-    right = normalise(right)
-    up = np.array([0.0, 0.0, 1.0])
-    trunk = normalise(joints[INDEX["c7t1"]] - joints[INDEX["l5s1"]])
-    lean = math.degrees(math.acos(float(np.clip(trunk[2], -1.0, 1.0))))
+    x, y = across[0] / level, across[1] / level
+    trunk = (joints[INDEX["c7t1"]] - joints[INDEX["l5s1"]]).tolist()
+    lean = math.degrees(math.atan2(math.hypot(*trunk[:2]), trunk[2]))
     if lean > MAX_LEAN_DEG:
         raise ValueError(f"Rig '{name}' does not stand upright: its trunk leans {lean:.0f} degrees from the world's z, "
                          f"the limit is {MAX_LEAN_DEG:.0f}")
-    return np.stack([right, np.cross(up, right), up])
+    return np.array([[x, y, 0.0], [-y, x, 0.0], [0.0, 0.0, 1.0]])
 
 
 def _check_lengths(name: str, joints: Array, height: float) -> None:
     """Every link the motion turns needs a length; a millionth of the height is none."""
-    links = [("l5s1", "c7t1"), ("left_hip", "right_hip")]
-    for _, word in SIDES:
-        links += [(f"{word}_{a}", f"{word}_{b}") for a, b in (
-            ("clavicle", "shoulder"), ("shoulder", "elbow"), ("elbow", "wrist"), ("wrist", "grip"),
-            ("hip", "knee"), ("knee", "ankle"), ("ankle", "ball"))]
-    for start, end in links:
-        if np.linalg.norm(joints[INDEX[end]] - joints[INDEX[start]]) < 1e-6 * max(height, 1e-9):
-            raise ValueError(f"Rig '{name}': {start.replace('_', ' ')} and {end.replace('_', ' ')} are the same point, "
-                             f"so there is nothing to turn between them")
+    spans = joints[_LINK_ENDS[:, 1]] - joints[_LINK_ENDS[:, 0]]
+    for link in np.flatnonzero(np.sqrt(np.sum(spans * spans, axis=1)) < 1e-6 * max(height, 1e-9)):
+        start, end = (end.replace("_", " ") for end in _LINKS[link])
+        raise ValueError(f"Rig '{name}': {start} and {end} are the same point, "
+                         f"so there is nothing to turn between them")
 
 
 def _check_triangles(name: str, bone_map: BoneMap, joints: Array, height: float) -> None:
     """Pelvis and chest turn with the triangles of their joints; three joints in a line leave the turn about it open."""
-    heads = {"left_hip": "thigh.L", "right_hip": "thigh.R", "l5s1": "spine", "c7t1": "neck",
-             "left_clavicle": "clavicle.L", "right_clavicle": "clavicle.R"}
-    for part, corners in (("pelvis", ("left_hip", "right_hip", "l5s1")), ("chest", ("l5s1", "c7t1", "left_clavicle")),
-                          ("chest", ("l5s1", "c7t1", "right_clavicle"))):
-        places = joints[[INDEX[corner] for corner in corners]]
-        longest = max(np.linalg.norm(places[i] - places[i - 1]) for i in range(3))
-        if np.linalg.norm(np.cross(places[1] - places[0], places[2] - places[0])) < _LEAST_TRIANGLE * height * longest:
-            bones = ", ".join(f"'{bone_map.segments[heads[corner]]}'" for corner in corners)
-            raise ValueError(f"Rig '{name}': the bones {bones} start on one line, so the turn of the {part} about it "
-                             f"cannot be read from them; move one of them or map others")
+    places = joints[_TRIANGLE_CORNERS]                               # (triangle, corner, 3)
+    sides = places - places[:, [2, 0, 1]]
+    areas = cross(sides[:, 1], -sides[:, 0])
+    longest = np.sqrt(np.sum(sides * sides, axis=2)).max(axis=1)
+    for flat in np.flatnonzero(np.sqrt(np.sum(areas * areas, axis=1)) < _LEAST_TRIANGLE * height * longest):
+        part, corners = _TRIANGLES[flat]
+        bones = ", ".join(f"'{bone_map.segments[_HEADS[corner]]}'" for corner in corners)
+        raise ValueError(f"Rig '{name}': the bones {bones} start on one line, so the turn of the {part} about it "
+                         f"cannot be read from them; move one of them or map others")
 
 
 def _check_sides(name: str, bone_map: BoneMap, joints: Array, axes: Array) -> None:
@@ -195,7 +208,7 @@ def _check_sides(name: str, bone_map: BoneMap, joints: Array, axes: Array) -> No
     def bones(segment: str) -> str:
         return f"'{bone_map.segments[f'{segment}.L']}' and '{bone_map.segments[f'{segment}.R']}'"
 
-    feet = [normalise(joints[INDEX[f"{word}_ball"]] - joints[INDEX[f"{word}_ankle"]]) @ axes[1] for _, word in SIDES]
+    feet = [(joints[INDEX[f"{word}_ball"]] - joints[INDEX[f"{word}_ankle"]]) @ axes[1] for _, word in SIDES]
     if min(feet) <= 0.0:
         raise ValueError(f"Rig '{name}': seen from the hips, {bones('foot')} do not both point forward; "
                          f"{bones('thigh')} look exchanged, left with right")
@@ -214,29 +227,3 @@ def _add_derived_joints(joints: Array, axes: Array, height: float) -> None:
         grip = joints[INDEX[f"{word}_grip"]]
         half = _HALF_HAND * (grip - joints[INDEX[f"{word}_wrist"]])
         joints[INDEX[f"{word}_hand_front"]], joints[INDEX[f"{word}_hand_back"]] = grip + half, grip - half
-
-
-def rest_hinge(upper: Array, axes: Array) -> Array:
-    """(3,) the elbow's axis of a straight arm along unit `upper`: it bends forward, and up if it points forward."""
-    across = np.cross(upper, axes[1])
-    return normalise(across if np.linalg.norm(across) > 0.2 else np.cross(upper, axes[2]))
-
-
-def rest_palm(joints: Array, axes: Array, side: str) -> Array:
-    """(3,) out of the palm at rest, across the hand: down in a T pose, inwards when the arms hang."""
-    word = dict(SIDES)[side]
-    upper = normalise(joints[INDEX[f"{word}_elbow"]] - joints[INDEX[f"{word}_shoulder"]])
-    hand = normalise(joints[INDEX[f"{word}_grip"]] - joints[INDEX[f"{word}_wrist"]])
-    normal = rest_hinge(upper, axes) * (-1.0 if side == "R" else 1.0)
-    return normalise(normal - hand * dot(normal, hand))
-
-
-def rest_bend(joints: Array, side: str, names: tuple[str, str, str], straight: Array, least_deg: float) -> Array:
-    """(3,) hinge axis of a limb at rest: from its own bend when it is bent by `least_deg`, else `straight`."""
-    word = dict(SIDES)[side]
-    first, middle, last = (joints[INDEX[f"{word}_{name}"]] for name in names)
-    upper, lower = normalise(middle - first), normalise(last - middle)
-    bend = np.cross(upper, lower)
-    chosen = bend if np.linalg.norm(bend) > math.sin(math.radians(least_deg)) and bend @ straight > 0.0 else straight
-    return normalise(chosen - upper * dot(chosen, upper))
-

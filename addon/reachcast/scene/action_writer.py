@@ -79,8 +79,10 @@ def _fill(curve: bpy.types.FCurve, first_frame: int, values: Array) -> None:
     places[:, 0] = _frames(first_frame, len(values))
     places[:, 1] = values
     points.foreach_set("co", places.ravel())
+    first = points[0]
     for attribute, identifier in _KEY_STYLE:
-        points.foreach_set(attribute, _enum_values(attribute, identifier, len(values)))
+        if getattr(first, attribute) != identifier:  # new keys have the style of the user's preferences
+            points.foreach_set(attribute, _enum_values(attribute, identifier, len(values)))
     curve.update()
 
 

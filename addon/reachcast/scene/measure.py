@@ -10,12 +10,19 @@ import bpy
 import numpy as np
 
 from ..rigs.joints import INDEX, JOINTS, SIDES
-from ..rigs.retarget import CARRIERS
 from ..rigs.rotations import Array, dot, normalise, reject, to_quaternion, transpose, turn, twist_angle
 from ..rigs.skeleton import Skeleton
 from .read_task import BoxShape
 from .transforms import layer_of
 
+#: Joint centre -> the segment whose bone carries it as a fixed point.
+CARRIERS: dict[str, str] = {
+    "l5s1": "spine", "c7t1": "neck", "suprasternale": "chest", "tragion": "neck", "nasion": "head",
+    **{f"{word}_{joint}": f"{segment}.{side}" for side, word in SIDES for joint, segment in (
+        ("ball", "foot"), ("ankle", "foot"), ("knee", "shin"), ("hip", "thigh"), ("clavicle", "clavicle"),
+        ("shoulder", "upper_arm"), ("elbow", "forearm"), ("wrist", "hand"), ("hand_front", "hand"),
+        ("hand_back", "hand"), ("grip", "hand"))},
+}
 #: A limb straighter than this has no side to which it bends.
 LEAST_BEND_DEG = 3.0
 #: Middle of an elbow's swivel, outwards from a relaxed one: the median of the recorded lifts, whose range is -10 to 81.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType, ModuleType
@@ -17,8 +17,8 @@ from .. import native
 from ..corpora import default_corpus, opened_corpus
 from ..rigs.bone_map import BoneMap
 from ..rigs.joints import INDEX, JOINTS
-from ..rigs.retarget import EXACT_JOINTS, RigPose, posed_joints, retarget
-from ..rigs.rotations import Array, axis_rotation
+from ..rigs.retarget import EXACT_JOINTS, retarget
+from ..rigs.rotations import Array
 from ..rigs.skeleton import Skeleton
 from .action_writer import refuse_unwritable
 from .movers import moves_bones, moves_object, refuse_moved
@@ -27,7 +27,6 @@ from .read_task import Lift, read_lift, refuse_held_box
 from .transforms import above_matrix, layer_of, refuse_removed
 from .write_motion import box_world_places, write_box_action, write_rig_action
 
-EVENTS = ("grasp", "lift_off", "placed", "release", "end")
 #: How far the posed rig may be from the predicted joints. Single precision keys are a hundred times finer.
 MAX_MISFIT_M = 1e-3
 
@@ -41,6 +40,7 @@ class Neighbour:
     mirrored: bool
     weight: float
     distances: Mapping[str, float]
+    phase: str
 
 
 @dataclass(frozen=True)
@@ -50,13 +50,14 @@ class PredictionResult:
     rig: str
     action: str
     box_action: str | None
-    frames: Mapping[str, int]                             #: scene frame of each of EVENTS
+    #: scene frame of grasp, lift_off, placed, release, end, as far as they occur; the second time grasp_2, ...
+    frames: Mapping[str, int]
     first_frame: int
-    neighbours: tuple[Neighbour, ...]                     #: heaviest first
+    neighbours: tuple[Neighbour, ...]                     #: phase by phase, heaviest first
     outside_data: bool
     outside_reasons: tuple[str, ...]
     corrections: tuple[str, ...]
-    errors: Mapping[str, float]                           #: metres: landing, grip (while held), pose
+    errors: Mapping[str, float]                           #: metres: landing (if placed), grip (if held), pose
 
 
 def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: object = None,
@@ -64,11 +65,13 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
                    stature: float | None = None, sex: str | None = None, age: float | None = None,
                    mass: float | None = None, bone_map: BoneMap | str | Path | None = None,
                    start_frame: int | None = None, scene: bpy.types.Scene | None = None,
-                   **options: object) -> PredictionResult:
+                   phases: Sequence[str] = ("transfer",), **options: object) -> PredictionResult:
     """Predicts how `rig` carries `box` to `shelf` and writes a new Action on the rig, and one on the box if given.
 
     corpus: a path or an opened reachcast_core.Corpus; None takes the one that ships. stature in metres (None: the
-    rig's own height), age in years, mass in kg. Objects are taken where they are in the scene's current frame, and the
+    rig's own height), age in years, mass in kg. phases: any of "reach" (empty hands to the box), "transfer" (from home to
+    the shelf), "return" (hands to the sides) and "retrieve" (back home), in an order that can be performed; the box
+    stands where the first loaded phase takes it from. Objects are taken where they are in the scene's current frame, and the
     motion starts there or at start_frame. Other options go to reachcast_core.predict. Everything is read and checked
     first: on ValueError nothing has been written.
     """
@@ -81,19 +84,21 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
     _refuse_owners(rig, skeleton, box, layer)
     subject = _subject(core, skeleton, stature, sex, age, mass)
     motion = _predict(core, skeleton, lift, corpus, subject,
-                      {"frame_rate": scene.render.fps / scene.render.fps_base, **options})
+                      {"frame_rate": scene.render.fps / scene.render.fps_base, "phases": list(phases), **options})
     joints = skeleton.to_world(np.asarray(motion.positions, float))
     pose = retarget(skeleton, joints)
-    errors = _errors(skeleton, lift, motion, pose, joints)
+    places = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
+    errors = _errors(skeleton, lift, motion, pose, joints, places)
     first = scene.frame_current if start_frame is None else int(start_frame)
     name = f"{rig.name} to {shelf.name}"
     above = above_matrix(box, layer) if box else None
     action = write_rig_action(rig, skeleton, pose, name, first)
-    box_action = _write_box(box, above, skeleton, lift, motion, f"{box.name} to {shelf.name}", first) if box else None
+    box_action = _write_box(box, above, lift, places, f"{box.name} to {shelf.name}", first) if box else None
     result = PredictionResult(
         rig.name, action.name, box_action.name if box_action else None,
-        MappingProxyType({event: first + int(motion.events[event]) for event in EVENTS}), first,
-        tuple(Neighbour(near.id, near.origin, near.mirrored, near.weight, MappingProxyType(dict(near.distances)))
+        MappingProxyType({event: first + frame for event, frame in motion.events.items()}), first,
+        tuple(Neighbour(near.id, near.origin, near.mirrored, near.weight, MappingProxyType(dict(near.distances)),
+                        near.phase)
               for near in motion.neighbours),
         motion.outside_data, tuple(map(str, motion.outside_reasons)), tuple(map(_said, motion.corrections)),
         MappingProxyType(errors))
@@ -141,39 +146,55 @@ def _predict(core: ModuleType, skeleton: Skeleton, lift: Lift, corpus: object, s
                      home_yaw=lift.home_yaw, target_yaw=lift.target_yaw)
     body = core.Body.from_posture(skeleton.to_body(skeleton.joints), skeleton.height)
     try:
-        motion = core.predict(_corpus(core, corpus), subject, task, body, **options)
+        return core.predict(_corpus(core, corpus), subject, task, body, **options)
     except RuntimeError as error:  # what the native module says of a damaged or busy file, in one sentence
         raise ValueError(str(error)) from error
-    if missing := [event for event in EVENTS if event not in motion.events]:
-        raise ValueError(f"The predicted motion lacks the events {', '.join(missing)}")
-    return motion
 
 
-def _errors(skeleton: Skeleton, lift: Lift, motion: Any, pose: RigPose, joints: Array) -> dict[str, float]:
-    """How far the rig's bones, by forward kinematics, are from what was asked: the box at release from the shelf, the
+def _errors(skeleton: Skeleton, lift: Lift, motion: Any, pose: Any, joints: Array,
+            places: tuple[Array, Array]) -> dict[str, float]:
+    """How far the rig's bones, by forward kinematics, are from what was asked: the box from where it is put down, the
     grips from their handles, the joints from the prediction. ValueError when the rig cannot follow."""
-    reached = posed_joints(skeleton, pose)
+    reached = pose.joints()
     misfit = np.linalg.norm(reached - joints, axis=2)[:, EXACT_JOINTS]
     if (worst := float(misfit.max())) > MAX_MISFIT_M:
         frame, joint = np.unravel_index(int(misfit.argmax()), misfit.shape)
         raise ValueError(f"Rig '{skeleton.name}' cannot follow the predicted motion: "
                          f"{JOINTS[EXACT_JOINTS[joint]]} would be {worst * 1000:.1f} mm off at frame {frame}; "
                          f"the limit is {MAX_MISFIT_M * 1000:g} mm")
-    origins, turns = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
-    held = slice(int(motion.events["grasp"]), int(motion.events["release"]) + 1)
-    grip = 0.0
-    for word, side in (("left", -0.5), ("right", 0.5)):
+    origins, turns = places
+    errors = {"pose": worst}
+    ends = {"transfer": lift.target, "retrieve": lift.home}
+    landings = [float(np.linalg.norm(origins[last] - skeleton.to_world(ends[phase])))
+                for phase, _, last in motion.phases if phase in ends]
+    if landings:
+        errors["landing"] = max(landings)
+    held = _held_frames(motion)
+    for word, side in (("left", -0.5), ("right", 0.5)) if len(held) else ():
         handle = origins + turns @ np.array([side * lift.box.grip_distance, 0.0, lift.box.handle_height])
-        grip = max(grip, float(np.linalg.norm(reached[:, INDEX[f"{word}_grip"]] - handle, axis=1)[held].max()))
-    landed = origins[int(motion.events["release"])]
-    return {"landing": float(np.linalg.norm(landed - skeleton.to_world(lift.target))), "grip": grip, "pose": worst}
+        off = float(np.linalg.norm(reached[:, INDEX[f"{word}_grip"]] - handle, axis=1)[held].max())
+        errors["grip"] = max(off, errors.get("grip", 0.0))
+    return errors
 
 
-def _write_box(box: bpy.types.Object, above: Array, skeleton: Skeleton, lift: Lift, motion: Any, name: str,
+def _held_frames(motion: Any) -> Array:
+    """Frames (H,) from each grasp to the release that follows it, both included; to the end if none does."""
+    held: list[int] = []
+    begun = None
+    for event, frame in motion.events.items():
+        if event.startswith("grasp"):
+            begun = frame
+        elif event.startswith(("release", "end")) and begun is not None:
+            held.extend(range(begun, frame + 1))
+            begun = None
+    return np.array(held, dtype=int)
+
+
+def _write_box(box: bpy.types.Object, above: Array, lift: Lift, places: tuple[Array, Array], name: str,
                first: int) -> bpy.types.Action:
-    origins, turns = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
+    origins, turns = places
     if lift.half_turn:
-        turns = turns @ axis_rotation(np.array([0.0, 0.0, 1.0]), np.pi)
+        turns = turns * np.array([-1.0, -1.0, 1.0])
     return write_box_action(box, above, origins + turns @ np.array(lift.box.origin_offset), turns, name, first)
 
 
@@ -186,8 +207,9 @@ def _said(correction: Any) -> str:
 
 def _label(action: bpy.types.Action, result: PredictionResult) -> None:
     """The result as custom properties: it is saved with the file and undone with the Action."""
-    for event in EVENTS:
-        action[event] = result.frames[event]
+    for event, frame in result.frames.items():
+        action[event] = frame
+    action["reachcast_events"] = ", ".join(result.frames)
     action["reachcast_first_frame"] = result.first_frame
     action["reachcast_outside_data"] = result.outside_data
     action["reachcast_neighbours"] = ", ".join(str(near.id) for near in result.neighbours)

@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ..rigs.bone_map import BoneMap, detect, load_bone_map
+from ..rigs.rotations import orthonormal
 from ..rigs.skeleton import Bones, Skeleton, build_skeleton
 from .transforms import Placement, described, even_placement
 
@@ -35,25 +36,18 @@ def read_rig(rig: bpy.types.Object, bone_map: BoneMap | str | Path | None = None
 
 
 def _bones(rig: bpy.types.Object, place: Placement) -> Bones:
-    bones = _parents_first(list(rig.data.bones))
+    bones = rig.data.bones  # Blender lists parents before their children
     index = {bone.name: number for number, bone in enumerate(bones)}
-    rest = np.array([bone.matrix_local for bone in bones], dtype=float).reshape(-1, 4, 4)
-    tails = np.array([bone.tail_local for bone in bones], dtype=float).reshape(-1, 3)
-    left, _, right = np.linalg.svd(rest[:, :3, :3])  # single precision to orthonormal in double
+    rest, tails = np.empty(16 * len(index), dtype=np.float32), np.empty(3 * len(index), dtype=np.float32)
+    bones.foreach_get("matrix_local", rest)
+    bones.foreach_get("tail_local", tails)
+    columns = rest.reshape(-1, 4, 4).astype(float)  # a matrix comes column by column
+    parents = [bone.parent for bone in bones]
     return Bones(
-        names=tuple(index), parents=tuple(index[bone.parent.name] if bone.parent else -1 for bone in bones),
-        heads=place.to_world(rest[:, :3, 3]), tails=place.to_world(tails), rotations=place.rotation @ (left @ right),
+        names=tuple(index), parents=tuple(index[parent.name] if parent else -1 for parent in parents),
+        heads=place.to_world(columns[:, 3, :3]), tails=place.to_world(tails.reshape(-1, 3)),
+        rotations=place.rotation @ orthonormal(columns[:, :3, :3].transpose(0, 2, 1)),  # from single precision
         origin=place.origin, axes=place.rotation, scale=float(np.mean(place.scale)))
-
-
-def _parents_first(bones: list[bpy.types.Bone]) -> list[bpy.types.Bone]:
-    ordered: list[bpy.types.Bone] = []
-    pending = [bone for bone in bones if bone.parent is None]
-    while pending:
-        bone = pending.pop()
-        ordered.append(bone)
-        pending.extend(bone.children)
-    return ordered
 
 
 def _refuse_what_overrides_keys(rig: bpy.types.Object, skeleton: Skeleton) -> None:

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..rigs.rotations import Array
+from ..rigs.rotations import Array, orthonormal
 from .movers import movers, moves_object
 
 #: How far an object's axes may be from one common length, or from right angles, as a part of that length.
@@ -83,8 +83,7 @@ def placement(item: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) 
     rotation = axes / scale
     if np.max(np.abs(rotation.T @ rotation - np.eye(3))) > MAX_UNEVEN:
         raise ValueError(f"Object '{item.name}' is sheared by its parent's scale; give the parent an even scale")
-    left, _, right = np.linalg.svd(rotation)
-    return Placement(matrix[:3, 3], left @ right, scale)
+    return Placement(matrix[:3, 3], orthonormal(rotation), scale)
 
 
 def even_placement(item: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> Placement:

@@ -2,44 +2,50 @@
 """A rig's pose over time, and the box's places, as Actions."""
 from __future__ import annotations
 
+from typing import Any
+
 import bpy
 import numpy as np
 from bpy.utils import escape_identifier
+from mathutils import Vector
 
-from ..rigs.channels import rotation_values
-from ..rigs.retarget import RigPose, local_rotations
+from .. import native
 from ..rigs.rotations import Array, from_quaternion
 from ..rigs.skeleton import Skeleton
 from .action_writer import Channel, write_action
 
+_NOWHERE, _UNSCALED = Vector((0.0, 0.0, 0.0)), Vector((1.0, 1.0, 1.0))
 _ROTATION_PATHS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
 
 
-def write_rig_action(rig: bpy.types.Object, skeleton: Skeleton, pose: RigPose, name: str,
+def write_rig_action(rig: bpy.types.Object, skeleton: Skeleton, pose: Any, name: str,
                      first_frame: int) -> bpy.types.Action:
-    """A new Action on `rig`: a rotation per keyed bone and frame, the pelvis's place, and one key that holds what must
-    not move (the scale and place of every keyed bone)."""
-    local = local_rotations(skeleton, pose)
+    """A new Action on `rig` of a reachcast_core.RigPose: a rotation per keyed bone and frame and the pelvis's place.
+
+    A keyed bone that is posed with a scale or an offset of its own also gets one key that takes it to none.
+    """
+    pelvis = skeleton.segments["pelvis"]
     channels = []
     for bone in skeleton.keyed:
         bone_name = skeleton.bones.names[bone]
         pose_bone = rig.pose.bones[bone_name]
         path = f'pose.bones["{escape_identifier(bone_name)}"].'
         mode = pose_bone.rotation_mode
-        if bone == pose.pelvis:
+        if bone == pelvis:
             channels.append(Channel(path + "location", _pelvis_location(rig, skeleton, pose), bone_name))
-        elif not pose_bone.bone.use_connect:
+        elif pose_bone.location != _NOWHERE and not pose_bone.bone.use_connect:
             channels.append(Channel(path + "location", np.zeros((1, 3)), bone_name))
         channels.append(Channel(path + _ROTATION_PATHS.get(mode, "rotation_euler"),
-                                rotation_values(local[bone], mode), bone_name))
-        channels.append(Channel(path + "scale", np.ones((1, 3)), bone_name))
+                                pose.rotation_values(bone, mode), bone_name))
+        if pose_bone.scale != _UNSCALED:
+            channels.append(Channel(path + "scale", np.ones((1, 3)), bone_name))
     return write_action(rig, name, channels, first_frame)
 
 
-def _pelvis_location(rig: bpy.types.Object, skeleton: Skeleton, pose: RigPose) -> Array:
+def _pelvis_location(rig: bpy.types.Object, skeleton: Skeleton, pose: Any) -> Array:
     """(F, 3) in the axes the bone's location is given in: its own, or its parent's when Local Location is off."""
-    bones, pelvis = skeleton.bones, pose.pelvis
-    moved = (pose.heads[pelvis] - bones.heads[pelvis]) / bones.scale
+    bones, pelvis = skeleton.bones, skeleton.segments["pelvis"]
+    moved = (pose.heads[skeleton.keyed.index(pelvis)] - bones.heads[pelvis]) / bones.scale
     if rig.data.bones[bones.names[pelvis]].use_local_location:
         axes = bones.rotations[pelvis]
     else:
@@ -60,7 +66,7 @@ def write_box_action(box: bpy.types.Object, above: Array, origins: Array, rotati
     channels = [
         Channel("location", places, "Object Transforms"),
         Channel(_ROTATION_PATHS.get(box.rotation_mode, "rotation_euler"),
-                rotation_values(turned.T @ rotations, box.rotation_mode), "Object Transforms"),
+                native.core().rotation_values(turned.T @ rotations, box.rotation_mode), "Object Transforms"),
     ]
     return write_action(box, name, channels, first_frame)
 

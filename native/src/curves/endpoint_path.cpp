@@ -12,8 +12,16 @@ namespace reachcast {
 namespace {
 
 constexpr double kShortestAxis_m = 0.01;
+constexpr double kRamp = 0.1;
 
 }  // namespace
+
+double resting_time(double t) {
+  const double speed = 1.0 / (1.0 - kRamp), clamped = std::clamp(t, 0.0, 1.0);
+  if (clamped < kRamp) return 0.5 * speed * clamped * clamped / kRamp;
+  if (clamped > 1.0 - kRamp) return 1.0 - 0.5 * speed * (1.0 - clamped) * (1.0 - clamped) / kRamp;
+  return speed * (clamped - 0.5 * kRamp);
+}
 
 EndpointPath fit_endpoint_path(std::span<const Vec3> points) {
   const auto count = static_cast<Eigen::Index>(points.size());
@@ -31,7 +39,7 @@ EndpointPath fit_endpoint_path(std::span<const Vec3> points) {
     const double t = static_cast<double>(f) / static_cast<double>(count - 1);
     const Vec3 offset = points[static_cast<std::size_t>(f)] - points.front();
     const double p = glm::dot(offset, axis) / (length * length);
-    basis.row(f) = bspline_row(t).segment<kPathBasisCount>(1);
+    basis.row(f) = bspline_row(resting_time(t)).segment<kPathBasisCount>(1);
     integrals.row(f) = bspline_integral_row(t).segment<kPathBasisCount>(1);
     covered(f, 0) = p;
     deviation.row(f) = to_eigen(offset - p * axis).transpose();
@@ -67,7 +75,7 @@ double progress(const EndpointPath& path, double t) {
 Vec3 point_at(const EndpointPath& path, const Vec3& start, const Vec3& end, double t) {
   const Vec3 axis = end - start;
   const double square = glm::dot(axis, axis);
-  const Vec3 off = to_glm((bspline_row(t).segment<kPathBasisCount>(1) * path.deviation).transpose());
+  const Vec3 off = to_glm((bspline_row(resting_time(t)).segment<kPathBasisCount>(1) * path.deviation).transpose());
   const Vec3 radial = square > 1e-18 ? off - glm::dot(off, axis) / square * axis : off;
   if (t >= 1.0) return end;
   return start + progress(path, t) * axis + (t <= 0.0 ? Vec3(0.0) : radial);

@@ -4,14 +4,22 @@
 #include <stdexcept>
 
 #include "reachcast/curves/bspline.hpp"
+#include "reachcast/posture/twist.hpp"
 #include "reachcast/posture/whole_body.hpp"
 
 namespace reachcast {
 namespace {
 
-// Layout of MotionCode::coefficients: velocity (6), deviation x, y, z (6 each), then posture coordinates, 8
-// coefficients each, coordinate by coordinate.
+// Layout of MotionCode::coefficients: velocity (6), deviation x, y, z (6 each), separation x, y, z (8 each), then
+// posture coordinates, 8 coefficients each, coordinate by coordinate.
 constexpr Eigen::Index kPathLength = 4 * kPathBasisCount;
+constexpr Eigen::Index kSeparationLength = 3 * kBasisCount;
+constexpr Eigen::Index kPostureStart = kPathLength + kSeparationLength;
+
+Vec3 separation(const Posture& posture) {
+  const Anchors anchors = anchors_of(posture);
+  return turned(0.5 * (anchors.grip[1] - anchors.grip[0]), -facing_yaw(anchors));
+}
 
 void check(const Reach& reach) {
   const auto fail = [&](const std::string& what) { throw std::invalid_argument(reach.origin + ": " + what); };
@@ -31,7 +39,7 @@ void check(const Reach& reach) {
 }  // namespace
 
 Eigen::Index code_length() {
-  return kPathLength + kBasisCount * posture_coordinate_count(two_handed_linkage());
+  return kPostureStart + kBasisCount * posture_coordinate_count(two_handed_linkage());
 }
 
 MotionCode encode_reach(const Reach& reach) {
@@ -48,9 +56,14 @@ MotionCode encode_reach(const Reach& reach) {
   code.coefficients.resize(code_length());
 
   Points holds;
+  Eigen::MatrixXd separations(reach.frames(), 3), resting_basis(reach.frames(), kBasisCount);
   Eigen::MatrixXd coordinates(reach.frames(), posture_coordinate_count(two_handed_linkage()));
   for (std::size_t f = 0; f < reach.frames(); ++f) {
     holds.push_back(reach.hold_point(f));
+    separations.row(static_cast<Eigen::Index>(f)) =
+        to_eigen(separation(reach.postures[f]) / reach.subject.stature_m).transpose();
+    resting_basis.row(static_cast<Eigen::Index>(f)) =
+        bspline_row(resting_time(static_cast<double>(f) / static_cast<double>(reach.frames() - 1)));
     coordinates.row(static_cast<Eigen::Index>(f)) = encode_posture(two_handed_linkage(), reach.postures[f]).transpose();
   }
   try {
@@ -58,7 +71,8 @@ MotionCode encode_reach(const Reach& reach) {
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(reach.origin + ": hold point: " + error.what());
   }
-  code.coefficients.tail(code_length() - kPathLength) = fit_bspline(coordinates).reshaped();
+  code.coefficients.segment<kSeparationLength>(kPathLength) = solve_smooth(resting_basis, separations).reshaped();
+  code.coefficients.tail(code_length() - kPostureStart) = fit_bspline(coordinates).reshaped();
   return code;
 }
 
@@ -74,9 +88,14 @@ void set_path(MotionCode& code, const EndpointPath& path) {
   code.coefficients.segment<3 * kPathBasisCount>(kPathBasisCount) = path.deviation.reshaped();
 }
 
+Vec3 separation_at(const MotionCode& code, double t) {
+  const Eigen::Map<const Eigen::Matrix<double, kBasisCount, 3>> curves(code.coefficients.data() + kPathLength);
+  return to_glm((bspline_row(resting_time(t)) * curves).transpose());
+}
+
 Eigen::VectorXd coordinates_at(const MotionCode& code, double t) {
   const Eigen::Index count = posture_coordinate_count(two_handed_linkage());
-  const Eigen::Map<const Eigen::MatrixXd> curves(code.coefficients.data() + kPathLength, kBasisCount, count);
+  const Eigen::Map<const Eigen::MatrixXd> curves(code.coefficients.data() + kPostureStart, kBasisCount, count);
   return (bspline_row(t) * curves).transpose();
 }
 

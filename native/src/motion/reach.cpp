@@ -14,6 +14,10 @@ constexpr std::array<std::pair<Phase, std::string_view>, 4> kPhaseNames{{{Phase:
 
 }  // namespace
 
+bool is_loaded(Phase phase) {
+  return phase == Phase::transfer || phase == Phase::retrieve;
+}
+
 std::string_view phase_name(Phase phase) {
   const auto found =
       std::find_if(kPhaseNames.begin(), kPhaseNames.end(), [&](const auto& p) { return p.first == phase; });
@@ -39,6 +43,27 @@ Reach mirrored(const Reach& reach) {
   }
   for (Posture& posture : image.postures) posture = mirrored(posture);
   return image;
+}
+
+Reach reversed(const Reach& reach) {
+  Reach back = reach;
+  switch (reach.phase) {
+    case Phase::transfer:
+      back.phase = Phase::retrieve;
+      break;
+    case Phase::retrieve:
+      back.phase = Phase::transfer;
+      break;
+    case Phase::reach:
+      back.phase = Phase::return_;
+      break;
+    case Phase::return_:
+      back.phase = Phase::reach;
+      break;
+  }
+  back.origin += " (backwards)";
+  std::reverse(back.postures.begin(), back.postures.end());
+  return back;
 }
 
 }  // namespace reachcast

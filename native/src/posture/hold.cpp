@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kMargin_m = 1e-4;        // limbs are held this far inside their reach
 constexpr double kRoomToSmooth_m = 8e-3;  // and settled this far inside it
+constexpr double kRoomBetween_m = 4e-3;   // and completed this far: what happens between two moments
 constexpr double kTolerance_m = 1e-6;     // when the trunk's search is done
 constexpr int kReachRounds = 150;
 constexpr double kTurnStep = 0.25;  // share of the wanted turn taken in each round: a shift is preferred
@@ -110,6 +111,30 @@ Corners limb_ends(const std::array<Vec3, 2>& wrist_from_grip, const Anchors& anc
           anchors.grip[1] + wrist_from_grip[1]};
 }
 
+/// How l5s1 goes, and how the trunk turns about it, as the roots of its limbs go from `before` to `now`.
+std::pair<Vec3, Vec3> move_of(const Decoded& decoded, const Corners& before, const Corners& now) {
+  const RigidMotion motion = nearest_rigid_motion(before, now);
+  const Vec3 waist = decoded.trunk[index(Joint::l5s1)];
+  return {motion(waist) - waist, rotation_vector(motion.rotation)};
+}
+
+/// The roots of the limbs as the stance moves them.
+Corners moved(const Decoded& decoded, const Corners& roots, const Stance& stance) {
+  const Vec3 waist = decoded.trunk[index(Joint::l5s1)];
+  const RigidMotion motion{rotation_by(stance.turn_rad), waist, waist + stance.shift};
+  Corners out;
+  for (std::size_t i = 0; i < kLimbCount; ++i) out[i] = motion(roots[i]);
+  return out;
+}
+
+std::array<Vec3, 2> wrists_of(const Decoded& decoded, const Stance& stance) {
+  std::array<Vec3, 2> wrists;
+  for (const std::size_t side : {0u, 1u}) {
+    wrists[side] = glm::normalize(stance.wrist_from_grip[side]) * glm::length(decoded.wrist_from_grip[side]);
+  }
+  return wrists;
+}
+
 }  // namespace
 
 Holder::Holder(const Linkage& linkage, const Body& body, double body_mass_kg)
@@ -117,9 +142,14 @@ Holder::Holder(const Linkage& linkage, const Body& body, double body_mass_kg)
   for (const LimbSpec& limb : limbs_) chains_.push_back(chain_of(limb, body.posture(), true));
 }
 
+Holder::Corners Holder::roots_of(const Decoded& decoded) const {
+  Corners roots;
+  for (std::size_t i = 0; i < kLimbCount; ++i) roots[i] = decoded.trunk[index(limbs_[i].root)];
+  return roots;
+}
+
 Stance Holder::settle(const Decoded& decoded, const Anchors& anchors, const Load& load) const {
-  Corners before;
-  for (std::size_t i = 0; i < kLimbCount; ++i) before[i] = decoded.trunk[index(limbs_[i].root)];
+  const Corners before = roots_of(decoded);
   Corners now = before;
   for (int round = 0; round < kBalanceRounds; ++round) {
     const Wrists wrists = limited_wrists(decoded, now, anchors);
@@ -130,24 +160,23 @@ Stance Holder::settle(const Decoded& decoded, const Anchors& anchors, const Load
     if (glm::length(excess) < kTolerance_m) break;
     for (Vec3& root : now) root -= excess / kMassThatMoves;
   }
-  const RigidMotion motion = nearest_rigid_motion(before, now);
-  const Vec3 waist = decoded.trunk[index(Joint::l5s1)];
-  return {motion(waist) - waist, rotation_vector(motion.rotation), limited_wrists(decoded, now, anchors)};
+  const auto [shift, turn] = move_of(decoded, before, now);
+  return {shift, turn, limited_wrists(decoded, now, anchors)};
+}
+
+Stance Holder::completed(const Decoded& decoded, const Stance& stance, const Anchors& anchors) const {
+  const Corners before = roots_of(decoded);
+  Corners now = moved(decoded, before, stance);
+  bring_within_reach(before, now, limb_ends(wrists_of(decoded, stance), anchors), kRoomBetween_m);
+  const auto [shift, turn] = move_of(decoded, before, now);
+  return {shift, turn, stance.wrist_from_grip};
 }
 
 Posture Holder::hold(const Decoded& decoded, const Stance& stance, const Anchors& anchors, const Load& load,
                      HoldReport& report) const {
-  const Vec3 waist = decoded.trunk[index(Joint::l5s1)];
-  const RigidMotion motion{rotation_by(stance.turn_rad), waist, waist + stance.shift};
-  Corners before, now;
-  for (std::size_t i = 0; i < kLimbCount; ++i) {
-    before[i] = decoded.trunk[index(limbs_[i].root)];
-    now[i] = motion(before[i]);
-  }
-  Wrists wrists;
-  for (const std::size_t side : {0u, 1u}) {
-    wrists[side] = glm::normalize(stance.wrist_from_grip[side]) * glm::length(decoded.wrist_from_grip[side]);
-  }
+  const Corners before = roots_of(decoded);
+  Corners now = moved(decoded, before, stance);
+  const Wrists wrists = wrists_of(decoded, stance);
   const Corners ends = limb_ends(wrists, anchors);
   bring_within_reach(before, now, ends, kMargin_m);
   measure_shortfall(now, ends, report);
@@ -159,7 +188,7 @@ Posture Holder::hold(const Decoded& decoded, const Stance& stance, const Anchors
     report.shortfall_m = (report.unbalanced_m - kFalling_m) / kMassThatMoves;
     report.shortfall_from = limbs_[stretch(2) > stretch(3) ? 2 : 3].root;
   }
-  report.trunk_shift_m = glm::distance(waist, posture[index(Joint::l5s1)]);
+  report.trunk_shift_m = glm::distance(decoded.trunk[index(Joint::l5s1)], posture[index(Joint::l5s1)]);
   report.trunk_turn_rad = glm::length(rotation_vector(nearest_rigid_motion(before, now).rotation));
   return posture;
 }

@@ -31,9 +31,12 @@ Vec3 turned(const Vec3& v, double yaw_rad) {
   return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
 }
 
+double facing_yaw(const Vec3& between_ankles, const Vec3& hold_point) {
+  return std::atan2(-(hold_point.x - between_ankles.x), hold_point.y - between_ankles.y + kSeenFrom_m);
+}
+
 double facing_yaw(const Anchors& anchors) {
-  const Vec3 feet = 0.5 * (anchors.ankle[0] + anchors.ankle[1]), hold = 0.5 * (anchors.grip[0] + anchors.grip[1]);
-  return std::atan2(-(hold.x - feet.x), hold.y - feet.y + kSeenFrom_m);
+  return facing_yaw(0.5 * (anchors.ankle[0] + anchors.ankle[1]), 0.5 * (anchors.grip[0] + anchors.grip[1]));
 }
 
 Anchors with_grips_turned(const Anchors& anchors, double yaw_rad) {

@@ -94,6 +94,7 @@ TEST(EncodeReach, APathPutIntoACodeIsThePathTakenOut) {
 TEST(EncodeReach, PosturesDoNotDependOnTheSizeOfThePerson) {
   const Reach reach = made_lift(1.7, {0.0, 0.42, 0.15}, {0.0, 0.45, 1.15});
   Reach larger = reach;
+  larger.subject.stature_m *= 1.13;
   for (Posture& posture : larger.postures) {
     for (Vec3& joint : posture) joint *= 1.13;
   }

@@ -12,7 +12,8 @@ namespace reachcast::tests {
 inline const Box kBox;  // grips 0.40 m apart, 0.12 m above the base
 inline const Vec3 kUp(0.0, 0.0, kBox.handle_height_m);
 
-/// A corpus of lifts made up from formulas: three statures, three homes, nine targets, with mirror images.
+/// A corpus of lifts made up from formulas: three statures, two homes, six targets, with mirror images; the same played
+/// backwards; and reaches to where they begin, from hands held low.
 class MadeCorpus {
  public:
   MadeCorpus() {
@@ -20,7 +21,21 @@ class MadeCorpus {
     for (const double stature : {1.55, 1.72, 1.9}) {
       for (const Vec3& home : {Vec3(0.03, 0.40, 0.15), Vec3(-0.05, 0.42, 0.6)}) {
         for (const double x : {-0.02, 0.15}) {
-          for (const double z : {0.85, 1.1, 1.35}) add(codes, made_lift(stature, home, {x, 0.40, z}));
+          for (const double z : {0.85, 1.1, 1.35}) {
+            const Reach lift = made_lift(stature, home, {x, 0.40, z});
+            add(codes, lift);
+            add(codes, reversed(lift));
+          }
+        }
+      }
+    }
+    for (const double stature : {1.55, 1.72, 1.9}) {
+      for (const double x : {-0.02, 0.15}) {
+        for (const double z : {0.15, 0.6, 1.1}) {
+          Reach reach = made_lift(stature, {0.0, 0.32, 0.7}, {x, 0.40, z}, 31, 0.9);
+          reach.phase = Phase::reach;
+          add(codes, reach);
+          add(codes, reversed(reach));
         }
       }
     }
@@ -50,6 +65,54 @@ inline Subject subject(double stature) {
 
 inline Task task(const Vec3& home, const Vec3& target) {
   return {.home = home, .target = target, .object = kBox};
+}
+
+inline PredictOptions options(double frame_rate, int k = 5, std::map<Phase, double> durations_s = {}) {
+  return {
+      .frame_rate = frame_rate, .scheme = {.k = k}, .phases = {Phase::transfer}, .durations_s = std::move(durations_s)};
+}
+
+/// Links, and the sides of the rigid triangles of pelvis and chest.
+inline const std::vector<std::pair<Joint, Joint>> kRigid = [] {
+  using enum Joint;
+  return std::vector<std::pair<Joint, Joint>>{{left_ball, left_ankle},
+                                              {left_ankle, left_knee},
+                                              {left_knee, left_hip},
+                                              {right_ball, right_ankle},
+                                              {right_ankle, right_knee},
+                                              {right_knee, right_hip},
+                                              {left_hip, right_hip},
+                                              {left_hip, l5s1},
+                                              {right_hip, l5s1},
+                                              {l5s1, c7t1},
+                                              {l5s1, left_clavicle},
+                                              {l5s1, right_clavicle},
+                                              {c7t1, left_clavicle},
+                                              {left_clavicle, right_clavicle},
+                                              {left_clavicle, left_shoulder},
+                                              {right_clavicle, right_shoulder},
+                                              {left_shoulder, left_elbow},
+                                              {right_shoulder, right_elbow},
+                                              {left_elbow, left_wrist},
+                                              {right_elbow, right_wrist},
+                                              {left_wrist, left_grip},
+                                              {right_wrist, right_grip},
+                                              {c7t1, tragion},
+                                              {tragion, nasion}};
+}();
+
+inline std::size_t frame(const Motion& motion, std::string_view event) {
+  return motion.plan.frame_of(event).value();
+}
+
+inline double worst_link(const Body& body, const Motion& motion) {
+  double worst = 0.0;
+  for (const Posture& p : motion.postures) {
+    for (const auto& [a, b] : kRigid) {
+      worst = std::max(worst, std::abs(glm::distance(p[index(a)], p[index(b)]) - body.distance(a, b)));
+    }
+  }
+  return worst;
 }
 
 }  // namespace reachcast::tests

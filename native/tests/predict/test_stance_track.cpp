@@ -34,7 +34,9 @@ TEST(StanceTrack, AJumpBecomesASlopeWhateverTheFrames) {
       fastest = std::max(fastest, (track.at(t + step).shift.z - track.at(t).shift.z) / step);
     // A Gaussian of 0.1 s turns a step of 0.2 m into at most 0.2 / (0.1 sqrt(2 pi)) m/s.
     EXPECT_NEAR(fastest, 0.2 / (0.1 * std::sqrt(2.0 * kPi)), 0.06);
-    if (last_speed > 0.0) EXPECT_NEAR(fastest, last_speed, 0.05);
+    if (last_speed > 0.0) {
+      EXPECT_NEAR(fastest, last_speed, 0.05);
+    }
     last_speed = fastest;
   }
 }

@@ -23,6 +23,11 @@ struct EndpointPath {
   Eigen::Matrix<double, kPathBasisCount, 3> deviation;  ///< metres, frame of the points, orthogonal to the axis
 };
 
+/// Scaled time of what begins and ends at rest: even but for its first and last tenth, where it gathers and loses pace.
+/// A spline that vanishes at its ends still has a slope there; run in this time it has none, as hands have not that
+/// wait on a box.
+[[nodiscard]] double resting_time(double t);
+
 /// points: at least 4, evenly spaced in time, finite. Start and end must be at least 1 cm apart (a path that ends where
 /// it began has no axis). Throws std::invalid_argument.
 [[nodiscard]] EndpointPath fit_endpoint_path(std::span<const Vec3> points);

@@ -7,7 +7,7 @@
 
 namespace reachcast {
 
-/// Number of coefficients of a code: the path of the hold point, then eight per posture coordinate.
+/// Number of coefficients of a code: the path of the hold point, how the hands part, then eight per posture coordinate.
 [[nodiscard]] Eigen::Index code_length();
 
 /// Throws std::invalid_argument naming the origin of the reach when it has fewer than 4 postures, a value that is not
@@ -17,6 +17,11 @@ namespace reachcast {
 /// The path of the hold point kept in a code.
 [[nodiscard]] EndpointPath path_of(const MotionCode& code);
 void set_path(MotionCode& code, const EndpointPath& path);
+
+/// Half the way from the left grip to the right one at scaled time t, in statures, as seen by a person who faces the hold
+/// point (facing_yaw). With the path of the hold point between them it is the path of either hand; on a box that both
+/// hold it is how the box turns.
+[[nodiscard]] Vec3 separation_at(const MotionCode& code, double t);
 
 /// Posture coordinates (two_handed_linkage) at scaled time t.
 [[nodiscard]] Eigen::VectorXd coordinates_at(const MotionCode& code, double t);

@@ -22,6 +22,8 @@ enum class Phase {
   retrieve,  ///< loaded, shelf to home
 };
 inline constexpr std::size_t kPhaseCount = 4;
+/// Whether the object is in the hands: transfer and retrieve.
+[[nodiscard]] bool is_loaded(Phase phase);
 [[nodiscard]] std::string_view phase_name(Phase phase);
 [[nodiscard]] std::optional<Phase> find_phase(std::string_view name);
 
@@ -40,5 +42,9 @@ struct Reach {
 
 /// The same motion performed by the mirror image of the person: x changes sign, left and right change names.
 [[nodiscard]] Reach mirrored(const Reach& reach);
+
+/// The same motion played backwards: a transfer becomes a retrieve, a reach a return, and the other way round. The
+/// origin says so.
+[[nodiscard]] Reach reversed(const Reach& reach);
 
 }  // namespace reachcast

@@ -40,6 +40,10 @@ class Holder {
   /// The stance that limbs, wrists and weight want, with 8 mm to spare in the limbs.
   [[nodiscard]] Stance settle(const Decoded& decoded, const Anchors& anchors, const Load& load) const;
 
+  /// The stance with the last move of the trunk that `hold` would still make, and that with 4 mm to spare in the limbs:
+  /// what smoothing over time has taken away from a settled one.
+  [[nodiscard]] Stance completed(const Decoded& decoded, const Stance& stance, const Anchors& anchors) const;
+
   /// The posture so corrected, with balls, ankles and grips exactly at their anchors; what the stance leaves
   /// out of reach is made up by a last move of the trunk. Where report.shortfall_m > 0 the limbs stop short of their
   /// anchors. Links keep their lengths in either case.
@@ -56,6 +60,8 @@ class Holder {
   using Corners = std::array<Vec3, kLimbCount>;  ///< roots of the limbs, or their ends
 
   using Wrists = std::array<Vec3, 2>;  ///< from grip to wrist, left and right
+
+  [[nodiscard]] Corners roots_of(const Decoded& decoded) const;
 
   [[nodiscard]] Wrists limited_wrists(const Decoded& decoded, const Corners& roots, const Anchors& anchors) const;
   [[nodiscard]] Posture spanned(const Decoded& decoded, const Corners& before, const Corners& roots,

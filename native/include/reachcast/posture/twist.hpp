@@ -15,6 +15,7 @@ struct Anchors;
 
 /// Turn about the vertical, radians, from facing forward (y) to facing the hold point, seen from a little behind
 /// the ankles so that it is defined and steady for everything that hands can hold in front of the body.
+[[nodiscard]] double facing_yaw(const Vec3& between_ankles, const Vec3& hold_point);
 [[nodiscard]] double facing_yaw(const Anchors& anchors);
 
 /// The same anchors with the grips turned about the vertical line midway between the ankles.

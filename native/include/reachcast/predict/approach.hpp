@@ -14,9 +14,9 @@ class EdgeClearance {
  public:
   EdgeClearance() = default;
 
-  /// The rise, as far as the bound allows, with which the box stays above its place while its centre is level within half its depth and 15 cm of
-  /// that place, or within 60 % of the way where the two places are close. `place_at`: the box's origin at scaled time
-  /// t; it is looked at at fixed times, so that the rise does not depend on a frame rate.
+  /// The rise, as far as the bound allows, with which the box stays above its place while its centre is level within
+  /// half its depth and 15 cm of that place, or within 60 % of the way where the two places are close. `place_at`: the
+  /// box's origin at scaled time t; it is looked at at fixed times, so that the rise does not depend on a frame rate.
   EdgeClearance(const std::function<Vec3(double)>& place_at, const Box& box);
 
   [[nodiscard]] double rise_m(double t) const;

@@ -2,26 +2,29 @@
 /// Subject + Task + corpus -> neighbours -> mean MotionCode -> Motion on this body (Faraway 2004, sections 3.3-5).
 #pragma once
 
-#include <optional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "reachcast/body/body.hpp"
 #include "reachcast/predict/neighbours.hpp"
+#include "reachcast/predict/plan.hpp"
 #include "reachcast/predict/task.hpp"
 
 namespace reachcast {
 
 struct PredictOptions {
-  double frame_rate = 24.0;          ///< frames per second of the result, 1 to 1000
-  Scheme scheme;                     ///< which motions are averaged, and how
-  std::optional<double> duration_s;  ///< of the transfer itself; else the neighbours' mean. 0.1 to 60
+  double frame_rate = 24.0;  ///< frames per second of the result, 1 to 1000
+  Scheme scheme{};           ///< which motions are averaged, and how; one that compares durations needs durations_s
+  /// In this order. The object stands where the first loaded phase takes it from, at the target when none is loaded.
+  std::vector<Phase> phases{Phase::transfer};
+  std::map<Phase, double> durations_s{};  ///< of a phase's own motion, 0.1 to 60; else the neighbours' mean
 };
 
-/// Frame numbers of what happens to the box. From lift_off to placed it moves; from grasp to release it is held; from
-/// release to end the hands open beside it.
-struct Events {
-  std::size_t grasp = 0, lift_off = 0, placed = 0, release = 0, end = 0;
+/// The motions that a phase rests on, heaviest first.
+struct PhaseNeighbours {
+  Phase phase = Phase::transfer;
+  std::vector<Neighbour> neighbours;
 };
 
 /// A change made after decoding, or what no change could mend; largest over the frames.
@@ -38,18 +41,19 @@ struct Motion {
   std::vector<Posture> postures;  ///< body frame
   std::vector<BoxPose> box;       ///< body frame, one per posture
   std::vector<double> times_s;    ///< frame / frame_rate
-  Events events;
-  double duration_s = 0.0;  ///< of the transfer, lift_off to placed
-  std::vector<Neighbour> neighbours;
-  std::vector<std::string> outside_data;  ///< why the task lies outside the corpus; empty when it lies inside
+  Plan plan;
+  std::vector<PhaseNeighbours> neighbours;  ///< one per phase
+  std::vector<std::string> outside_data;    ///< why the task lies outside the corpus; empty when it lies inside
   std::vector<Correction> corrections;
 };
 
-/// The `transfer` phase: both hands take the box at home, bring it to the target and let go; the feet stay where the
-/// body stands. Hands, feet and segment lengths are exact. Deterministic. Throws std::invalid_argument for bad input,
-/// a corpus without transfers, and a box place that this body cannot hold, saying which, by how many centimetres and
-/// from which joint.
-[[nodiscard]] Motion predict_transfer(const Corpus& corpus, const Subject& subject, const Task& task, const Body& body,
-                                      const PredictOptions& options = {});
+/// Both hands take the object at home, bring it to the target and let go (`transfer`), go back to hang at the sides
+/// (`return_`), come for it again (`reach`) and bring it home (`retrieve`), in any order that can be performed; the
+/// feet stay where the body stands. Hands, feet and segment lengths are exact; positions and velocities are continuous
+/// where phases meet. Deterministic. Throws std::invalid_argument for bad input, phases that cannot follow one another,
+/// a corpus without one of them, and a place of the object that this body cannot hold, saying which, by how many
+/// centimetres and from which joint.
+[[nodiscard]] Motion predict(const Corpus& corpus, const Subject& subject, const Task& task, const Body& body,
+                             const PredictOptions& options = {});
 
 }  // namespace reachcast

@@ -8,12 +8,16 @@
 
 namespace reachcast {
 
-/// What Holder::settle says at evenly spaced moments, smoothed by a Gaussian of 0.10 s and joined by cubics: neither
-/// position nor speed jumps, whatever the frames between the moments.
+/// What Holder::settle says at evenly spaced moments, smoothed by a Gaussian of 0.10 s and joined by a cubic B-spline:
+/// neither position nor speed nor acceleration jumps, whatever the frames between the moments.
 class StanceTrack {
  public:
   /// `moments`: at least 2, the first at time 0; spacing_s > 0.
   StanceTrack(const std::vector<Stance>& moments, double spacing_s);
+
+  /// Adds changes at the same moments, smoothed as the moments were. Directions of wrists add up too: zero is no
+  /// change.
+  void add(const std::vector<Stance>& changes);
 
   /// time_s is clamped to the track's ends.
   [[nodiscard]] Stance at(double time_s) const;
