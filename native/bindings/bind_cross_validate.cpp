@@ -47,6 +47,7 @@ py::list table(const Corpus& corpus, const py::iterable& schemes, const std::str
     entry["failed"] = row.failed;
     add_summary(row.error, entry);
     entry["best"] = row.is_best;
+    entry["behind_best"] = py::make_tuple(row.behind_best_m.low, row.behind_best_m.high);
     out.append(entry);
   }
   return out;
@@ -94,7 +95,9 @@ void bind_cross_validate(py::module_& m) {
       "A row: scheme, label, k, motions, out_of_reach (not predicted: the recording itself does not fit a body of "
       "its stature), failed (predictions that cannot be held, counted as infinitely wrong); in metres the median over "
       "motions of the mean distance over time and 23 joints, its quartiles, and the 95 % interval of the median by "
-      "1000 bootstrap resamples (seed) of groups (motions, or subjects where those are left out); best.");
+      "1000 bootstrap resamples (seed) of groups (motions, or subjects where those are left out); best; and "
+      "behind_best, the 95 % interval of how far "
+      "its median lies above the best one's in the same resamples.");
   m.def(
       "natural_variation", &variation, py::arg("corpus"), py::arg("within") = 0.05, py::kw_only(),
       py::arg("seed") = kBootstrapSeed, py::arg("threads") = 0u,

@@ -54,17 +54,22 @@ Resamples::Resamples(std::size_t groups, std::size_t times, std::uint64_t seed)
   }
 }
 
-Interval95 median_interval(std::span<const double> values, std::span<const std::uint32_t> group_of,
-                           const Resamples& resamples) {
+std::vector<double> resampled_medians(std::span<const double> values, std::span<const std::uint32_t> group_of,
+                                      const Resamples& resamples) {
   std::vector<std::uint32_t> order(values.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return values[a] < values[b]; });
   std::vector<double> medians;
+  medians.reserve(resamples.times());
   for (std::size_t time = 0; time < resamples.times(); ++time) {
     medians.push_back(median_of(values, group_of, order, resamples.counts(time)));
   }
-  std::sort(medians.begin(), medians.end());
-  return {quantile(medians, 0.025), quantile(medians, 0.975)};
+  return medians;
+}
+
+Interval95 percentile_interval(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return {quantile(values, 0.025), quantile(values, 0.975)};
 }
 
 }  // namespace reachcast

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "reachcast/predict/parallel.hpp"
 #include "reachcast/predict/replay.hpp"
@@ -55,7 +56,7 @@ BothEnds nearest_of(Search& search, const Scheme& selection, Sets sets) {
   return {search.nearest(selection, End::home), search.nearest(selection, End::target)};
 }
 
-BothShares shares_of(const Search& search, const Scheme& scheme, const BothEnds& nearest) {
+BothShares shares_of(Search& search, const Scheme& scheme, const BothEnds& nearest) {
   const auto first = [&](const std::vector<std::uint32_t>& all) {
     return std::span(all).first(std::min(all.size(), static_cast<std::size_t>(scheme.k)));
   };
@@ -136,7 +137,8 @@ Groups groups_of(const Recorded& recorded, const Errors& errors, const CrossVali
   return {keys, options.seed};
 }
 
-SchemeError row_of(const Scheme& scheme, std::size_t number, const Errors& errors, const Groups& groups) {
+SchemeError row_of(const Scheme& scheme, std::size_t number, const Errors& errors, const Groups& groups,
+                   std::vector<double>& medians) {
   std::vector<double> of_scheme;
   for (const std::vector<double>& of_motion : errors) {
     if (!of_motion.empty()) of_scheme.push_back(of_motion[number]);
@@ -145,7 +147,28 @@ SchemeError row_of(const Scheme& scheme, std::size_t number, const Errors& error
           .motions = of_scheme.size(),
           .out_of_reach = errors.size() - of_scheme.size(),
           .failed = static_cast<std::size_t>(std::count(of_scheme.begin(), of_scheme.end(), kFailed)),
-          .error = summary_of(of_scheme, groups)};
+          .error = summary_of(of_scheme, groups, medians),
+          .behind_best_m = {}};
+}
+
+/// Two medians of failed predictions are alike.
+double difference(double a, double b) {
+  return a == b ? 0.0 : a - b;
+}
+
+/// `medians`: of each row's resamples.
+void compare_with_best(std::vector<SchemeError>& rows, const std::vector<std::vector<double>>& medians) {
+  const auto has_smaller_median = [](const SchemeError& a, const SchemeError& b) {
+    return a.error.median_m < b.error.median_m;
+  };
+  const auto best = std::min_element(rows.begin(), rows.end(), has_smaller_median);
+  best->is_best = true;
+  const std::vector<double>& least = medians[static_cast<std::size_t>(best - rows.begin())];
+  for (std::size_t s = 0; s < rows.size(); ++s) {
+    std::vector<double> behind;
+    for (std::size_t i = 0; i < least.size(); ++i) behind.push_back(difference(medians[s][i], least[i]));
+    rows[s].behind_best_m = percentile_interval(std::move(behind));
+  }
 }
 
 }  // namespace
@@ -162,11 +185,10 @@ std::vector<SchemeError> cross_validate(const Corpus& corpus, std::span<const Sc
   });
   const Groups groups = groups_of(recorded, errors, options);
   std::vector<SchemeError> rows(schemes.size());
+  std::vector<std::vector<double>> medians(schemes.size());
   for_each_number(rows.size(), options.threads,
-                  [&](std::size_t s) { rows[s] = row_of(schemes[s], s, errors, groups); });
-  std::min_element(rows.begin(), rows.end(), [](const SchemeError& a, const SchemeError& b) {
-    return a.error.median_m < b.error.median_m;
-  })->is_best = true;
+                  [&](std::size_t s) { rows[s] = row_of(schemes[s], s, errors, groups, medians[s]); });
+  compare_with_best(rows, medians);
   return rows;
 }
 

@@ -73,7 +73,8 @@ NaturalVariation natural_variation(const Corpus& corpus, double within_m, std::u
     subjects.push_back(recorded.motion(pairs[i].first).subject_id);
   }
   variation.pairs = errors.size();
-  if (!errors.empty()) variation.error = summary_of(errors, Groups(subjects, seed));
+  std::vector<double> medians;
+  if (!errors.empty()) variation.error = summary_of(errors, Groups(subjects, seed), medians);
   return variation;
 }
 

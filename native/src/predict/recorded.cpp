@@ -51,13 +51,14 @@ Groups::Groups(const std::vector<std::int64_t>& keys, std::uint64_t seed)
   }
 }
 
-ErrorSummary summary_of(const std::vector<double>& errors, const Groups& groups) {
+ErrorSummary summary_of(const std::vector<double>& errors, const Groups& groups, std::vector<double>& medians) {
   std::vector<double> rising = errors;
   std::sort(rising.begin(), rising.end());
+  medians = resampled_medians(errors, groups.of, groups.resamples);
   return {.median_m = quantile(rising, 0.5),
           .lower_quartile_m = quantile(rising, 0.25),
           .upper_quartile_m = quantile(rising, 0.75),
-          .median_interval_m = median_interval(errors, groups.of, groups.resamples),
+          .median_interval_m = percentile_interval(medians),
           .groups = groups.count};
 }
 

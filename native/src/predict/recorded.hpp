@@ -37,7 +37,8 @@ struct Groups {
   Groups(const std::vector<std::int64_t>& keys, std::uint64_t seed);
 };
 
-/// Median, quartiles and bootstrap of the errors, one for each key of the groups.
-[[nodiscard]] ErrorSummary summary_of(const std::vector<double>& errors, const Groups& groups);
+/// Median, quartiles and bootstrap of the errors, one for each key of the groups. `medians`: those of the resamples.
+[[nodiscard]] ErrorSummary summary_of(const std::vector<double>& errors, const Groups& groups,
+                                      std::vector<double>& medians);
 
 }  // namespace reachcast

@@ -2,6 +2,7 @@
 #include "reachcast/predict/similarity.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -74,6 +75,7 @@ struct Search::Comparison {
   struct Part {
     const std::vector<double>*values, *sorted, *left_out;
     double wanted = 0.0, scale = 1.0;
+    KnownRanks* known = nullptr;
   };
   std::vector<Part> parts;                                   ///< by trait
   double too_far = std::numeric_limits<double>::infinity();  ///< difference of the first part that rules a motion out
@@ -83,8 +85,14 @@ struct Search::Comparison {
   [[nodiscard]] static std::size_t rank(const Part& part, std::uint32_t at) {
     const double value = (*part.values)[at];
     if (std::isnan(value)) return (part.sorted->size() - part.left_out->size()) / 2;
+    const std::size_t place = (std::bit_cast<std::uint64_t>(value) * 0x9E3779B97F4A7C15U >> 32) % KnownRanks::kPlaces;
+    if (part.known->value[place] == value) return part.known->rank[place];
     const double away = std::abs(value - part.wanted);
-    return count_nearer(*part.sorted, part.wanted, away) - count_nearer(*part.left_out, part.wanted, away);
+    const std::size_t rank =
+        count_nearer(*part.sorted, part.wanted, away) - count_nearer(*part.left_out, part.wanted, away);
+    part.known->value[place] = value;
+    part.known->rank[place] = static_cast<std::uint32_t>(rank);
+    return rank;
   }
 
   [[nodiscard]] double rank_sum(std::uint32_t at, std::size_t task_rank) const {
@@ -154,7 +162,7 @@ double Search::squared_task_distance_of(std::uint32_t at, End end) const {
   return squared_task_distance({home.x, home.y, home.z, target.x, target.y, target.z}, weights_of(end));
 }
 
-Search::Comparison Search::comparison(const Scheme& scheme, End end) const {
+Search::Comparison Search::comparison(const Scheme& scheme, End end) {
   check(scheme);
   if (scheme.uses(Trait::duration) && !query_.duration_s) {
     throw std::invalid_argument("the scheme compares durations; then the duration must be given");
@@ -173,8 +181,10 @@ Search::Comparison Search::comparison(const Scheme& scheme, End end) const {
   for (std::size_t t = 0; t < kTraitCount; ++t) {
     if (!scheme.traits[t] || std::isnan(wanted_[t])) continue;
     const double scale = scheme.trait_scales[t];
+    std::optional<KnownRanks>& known = known_ranks_[2 * t + (scheme.mirrored ? 1 : 0)];
+    if (!known) known.emplace();
     compared.parts.push_back({&columns_.traits[t], &pool.sorted[t], &out.sorted[t], wanted_[t],
-                              scale > 0.0 ? scale : or_one(spread(pool.traits[t], out.traits[t]))});
+                              scale > 0.0 ? scale : or_one(spread(pool.traits[t], out.traits[t])), &*known});
   }
   if (!scheme.task && compared.parts.empty()) {
     throw std::invalid_argument("the scheme compares nothing that is known of the subject");
@@ -237,7 +247,7 @@ Eigen::MatrixXd Search::offsets(std::span<const std::uint32_t> motions, bool mir
   return x;
 }
 
-std::vector<Share> Search::shares(const Scheme& scheme, End end, std::span<const std::uint32_t> nearest) const {
+std::vector<Share> Search::shares(const Scheme& scheme, End end, std::span<const std::uint32_t> nearest) {
   std::vector<double> weights;
   if (scheme.smoother == Smoother::uniform) weights = uniform_weights(nearest.size());
   if (scheme.smoother == Smoother::triangular) weights = triangular_weights(nearest.size());

@@ -48,7 +48,7 @@ TEST(Bootstrap, TheSeedDecides) {
 }
 
 /// The same by writing every resample out and sorting it.
-TEST(Bootstrap, IntervalIsThatOfResamplesWrittenOut) {
+TEST(Bootstrap, MediansAreThoseOfResamplesWrittenOut) {
   std::mt19937_64 random(4);
   for (int trial = 0; trial < 50; ++trial) {
     const std::size_t groups = 1 + random() % 6, values = groups + random() % 20;
@@ -67,11 +67,15 @@ TEST(Bootstrap, IntervalIsThatOfResamplesWrittenOut) {
       std::sort(drawn.begin(), drawn.end());
       medians.push_back(quantile(drawn, 0.5));
     }
-    std::sort(medians.begin(), medians.end());
-    const Interval95 interval = median_interval(errors, group_of, resamples);
-    EXPECT_EQ(interval.low, quantile(medians, 0.025)) << trial;
-    EXPECT_EQ(interval.high, quantile(medians, 0.975)) << trial;
+    EXPECT_EQ(resampled_medians(errors, group_of, resamples), medians) << trial;
   }
+}
+
+TEST(Bootstrap, IntervalLeavesOutTwoAndAHalfPercentAtEitherEnd) {
+  std::vector<double> values;
+  for (int i = 200; i >= 0; --i) values.push_back(i);
+  EXPECT_EQ(percentile_interval(values).low, 5.0);
+  EXPECT_EQ(percentile_interval(values).high, 195.0);
 }
 
 }  // namespace

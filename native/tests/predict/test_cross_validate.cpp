@@ -41,6 +41,9 @@ TEST(CrossValidate, GivesOneRowASchemeOverEveryMotionThatIsNoMirrorImage) {
     EXPECT_LE(row.error.median_interval_m.low, row.error.median_m);
     EXPECT_LE(row.error.median_m, row.error.median_interval_m.high);
     EXPECT_EQ(row.error.groups, row.motions);
+    EXPECT_TRUE(!row.is_best || (row.behind_best_m.low == 0.0 && row.behind_best_m.high == 0.0));
+    EXPECT_LE(row.behind_best_m.low, row.behind_best_m.high);
+    EXPECT_GE(row.behind_best_m.high, 0.0);
     if (row.error.median_m < rows[best].error.median_m) best = i;
   }
   for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(rows[i].is_best, i == best);

@@ -32,9 +32,13 @@ struct Interval95 {
   double low = 0.0, high = 0.0;
 };
 
-/// From the 2.5 % to the 97.5 % quantile of the medians of all resamples. values: at least one; group_of: the group
-/// that each value is drawn with, each group with at least one value.
-[[nodiscard]] Interval95 median_interval(std::span<const double> values, std::span<const std::uint32_t> group_of,
-                                         const Resamples& resamples);
+/// The median of each resample. values: at least one; group_of: the group that each value is drawn with, each group
+/// with at least one value.
+[[nodiscard]] std::vector<double> resampled_medians(std::span<const double> values,
+                                                    std::span<const std::uint32_t> group_of,
+                                                    const Resamples& resamples);
+
+/// From the 2.5 % to the 97.5 % quantile. At least one value.
+[[nodiscard]] Interval95 percentile_interval(std::vector<double> values);
 
 }  // namespace reachcast

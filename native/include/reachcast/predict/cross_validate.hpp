@@ -36,9 +36,12 @@ struct SchemeError {
   std::size_t motions = 0;       ///< predicted
   std::size_t out_of_reach = 0;  ///< not predicted: what its own code gives cannot be held on a body of that stature,
                                  ///< or there are no published proportions for it
-  std::size_t failed = 0;  ///< of `motions`: predictions that cannot be held; they count as infinitely wrong
+  std::size_t failed = 0;        ///< of `motions`: predictions that cannot be held; they count as infinitely wrong
   ErrorSummary error;
   bool is_best = false;  ///< smallest median, the first of equal ones
+  /// Of how far its median lies above that of the best, 95 %, in the same resamples: where it begins at 0 or below, the
+  /// recordings cannot tell the two apart.
+  Interval95 behind_best_m;
 };
 
 struct CrossValidation {

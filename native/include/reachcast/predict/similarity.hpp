@@ -42,7 +42,7 @@ class Search {
   [[nodiscard]] std::vector<std::uint32_t> nearest(const Scheme& scheme, End end);
 
   /// Shares of `nearest` (or of its first ones), by the scheme's smoother.
-  [[nodiscard]] std::vector<Share> shares(const Scheme& scheme, End end, std::span<const std::uint32_t> nearest) const;
+  [[nodiscard]] std::vector<Share> shares(const Scheme& scheme, End end, std::span<const std::uint32_t> nearest);
 
  private:
   struct Comparison;
@@ -57,10 +57,18 @@ class Search {
     std::vector<Step> steps;
   };
 
+  /// Ranks that were counted: people lift many times, so the same values come again and again.
+  struct KnownRanks {
+    static constexpr std::size_t kPlaces = 128;
+    std::array<double, kPlaces> value;  ///< kMissing where nothing is known yet
+    std::array<std::uint32_t, kPlaces> rank;
+    KnownRanks() { value.fill(kMissing); }
+  };
+
   [[nodiscard]] bool takes_part(std::uint32_t at, bool mirrored) const;
   [[nodiscard]] const Pool& missing(bool mirrored) const { return mirrored ? missing_ : missing_originals_; }
   [[nodiscard]] std::size_t count(bool mirrored) const;
-  [[nodiscard]] Comparison comparison(const Scheme& scheme, End end) const;
+  [[nodiscard]] Comparison comparison(const Scheme& scheme, End end);
   [[nodiscard]] const TaskOrder::Step* step(End end, bool mirrored, std::size_t number);
   [[nodiscard]] double squared_task_distance_of(std::uint32_t at, End end) const;
   [[nodiscard]] Eigen::MatrixXd offsets(std::span<const std::uint32_t> motions, bool mirrored) const;
@@ -72,6 +80,7 @@ class Search {
   std::vector<bool> is_left_out_;     ///< empty when nothing is
   Pool missing_, missing_originals_;  ///< what is left out
   std::array<std::optional<TaskOrder>, 6> orders_;
+  std::array<std::optional<KnownRanks>, 2 * kTraitCount> known_ranks_;
 };
 
 }  // namespace reachcast
