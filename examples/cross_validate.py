@@ -93,7 +93,7 @@ def print_variation(core: Any, corpus: Any, threads: int) -> None:
     print("natural variation: one person's motions with the same task, on the same measure")
     for within in WITHIN_M:
         found = core.natural_variation(corpus, within, threads=threads)
-        ends = f"ends within {100 * within:2.0f} cm: {found['pairs']:3} pairs of {found['groups']} subjects"
+        ends = f"ends within {100 * within:2.0f} cm: {found['pairs']:3} pair(s), {found['groups']} subject(s)"
         if not found["pairs"]:
             print(f"   {ends}")
             continue
