@@ -64,7 +64,8 @@ class LiftResult:
         report = self.report()
         frames = [report["frames"][event] for event in EVENTS]
         self.assertEqual(frames, sorted(frames))
-        self.assertAlmostEqual(sum(near["weight"] for near in report["neighbours"]), 1.0)
+        for phase in report["task"]["phases"]:
+            self.assertAlmostEqual(sum(near["weight"] for near in report["neighbours"] if near["phase"] == phase), 1.0)
         self.assertEqual(report["outside_data"], bool(report["outside_reasons"]))
 
 

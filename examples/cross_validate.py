@@ -34,7 +34,8 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     parser.add_argument("corpus", nargs="?", type=Path, help="a corpus file; built from recordings when left out")
     parser.add_argument("--leave-out", choices=("motion", "subject"), action="append",
                         help="what is not learned from; both, one after the other, when left out")
-    parser.add_argument("--schemes", default="all", metavar="all|paper|FILE.json", help="60, or those of the 2004 paper")
+    parser.add_argument("--schemes", default="all", metavar="all|paper|FILE.json",
+                        help="60, or those of the 2004 paper, or your own")
     parser.add_argument("--rows", type=int, default=12, help="how many of the best schemes to print; 0: all")
     parser.add_argument("--threads", type=int, default=0, help="0: as many as the machine has; changes no result")
     return parser.parse_args(arguments)
@@ -106,8 +107,8 @@ def main() -> int:
     try:
         import reachcast_core as core
     except ImportError as missing:
-        sys.exit(f"{missing}. Run this with the Python that Blender runs, after building reachcast_core for it; this is "
-                 f"{sys.executable}, try /usr/bin/python3.")
+        sys.exit(f"{missing}. Run this with the Python that Blender runs, after building reachcast_core for it; this "
+                 f"is {sys.executable}, try /usr/bin/python3.")
     schemes = wanted_schemes(core, options.schemes)
     with tempfile.TemporaryDirectory(prefix="reachcast-") as folder:
         try:

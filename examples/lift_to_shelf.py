@@ -40,6 +40,7 @@ from reachcast.scene.read_task import read_box  # noqa: E402
 
 FRAME_RATE = 24
 FIRST_FRAME = 1
+PHASES = ("reach", "transfer", "return")
 RESULTS = ("lift.blend", "lift.mp4", "contact_sheet.png", "report.json")
 
 
@@ -49,6 +50,7 @@ class Stage:
     shelf: bpy.types.Object
     home: bpy.types.Object
     box: bpy.types.Object
+    furniture: list[bpy.types.Object]  #: what the box and the hands keep clear of
 
 
 def arguments() -> argparse.Namespace:
@@ -72,16 +74,19 @@ def set_stage(options: argparse.Namespace) -> Stage:
     home = scenery.add_empty("Home", scenery.HOME, scenery.facing_yaw(*scenery.HOME[:2]))
     box = scenery.add_box(home.location)
     box.rotation_euler.z = home.rotation_euler.z
-    return Stage(scenery.add_worker(options.rig, options.stature), shelf, home, box)
+    furniture = [scenery.add_shelf_board(shelf), scenery.add_pallet(home)]
+    return Stage(scenery.add_worker(options.rig, options.stature), shelf, home, box, furniture)
 
 
 def predict(stage: Stage, options: argparse.Namespace) -> PredictionResult:
     result = predict_motion(stage.worker, stage.shelf, corpus=options.corpus, home=stage.home, box=stage.box,
-                            stature=options.stature, start_frame=FIRST_FRAME)
+                            stature=options.stature, start_frame=FIRST_FRAME, phases=PHASES,
+                            obstacles=stage.furniture)
     scene = bpy.context.scene
     scene.frame_start, scene.frame_end = FIRST_FRAME, result.frames["end"]
     settings = scene.reachcast
     settings.rig, settings.shelf, settings.home, settings.box = stage.worker, stage.shelf, stage.home, stage.box
+    settings.errand = "REACH_LIFT_RETURN"
     settings.corpus, settings.stature = os.fspath(options.corpus), options.stature
     return result
 
@@ -100,14 +105,14 @@ def report(stage: Stage, result: PredictionResult, options: argparse.Namespace) 
     return {
         "subject": {"stature_m": options.stature, "rig": options.rig},
         "task": {
-            "phase": "transfer",
+            "phases": list(PHASES),
             "home_m": rounded(stage.home.location), "shelf_m": rounded(stage.shelf.location),
             "shelf_yaw_deg": round(math.degrees(stage.shelf.rotation_euler.z), 4),
             "box": {"size_m": rounded((shape.width, shape.depth, shape.height)), "handle_height_m": shape.handle_height,
                     "grip_distance_m": shape.grip_distance, "mass_kg": shape.mass},
         },
         "corpus": os.fspath(options.corpus),
-        "neighbours": [{"id": near.id, "origin": near.origin, "mirrored": near.mirrored, "weight": near.weight,
+        "neighbours": [{"phase": near.phase, "id": near.id, "origin": near.origin, "mirrored": near.mirrored, "weight": near.weight,
                         "distances_m": dict(near.distances)} for near in result.neighbours],
         "outside_data": result.outside_data,
         "outside_reasons": list(result.outside_reasons),
@@ -127,8 +132,8 @@ def moments(result: PredictionResult) -> list[render.Moment]:
     frames = result.frames
     carried = frames["placed"] - frames["lift_off"]
     between = [frames["lift_off"] + round(part * carried) for part in (1 / 3, 2 / 3)]
-    chosen = [(frames["grasp"], "grasp"), (frames["lift_off"], "lift-off"), (between[0], "on the way"),
-              (between[1], "on the way"), (frames["placed"], "placed"), (frames["end"], "released")]
+    chosen = [(FIRST_FRAME, "at ease"), (frames["grasp"], "grasp"), (between[0], "on the way"),
+              (between[1], "on the way"), (frames["placed"], "placed"), (frames["end"], "at ease again")]
     return [render.Moment(frame, f"{word}   frame {frame}, {(frame - FIRST_FRAME) / FRAME_RATE:.2f} s")
             for frame, word in chosen]
 
@@ -136,8 +141,7 @@ def moments(result: PredictionResult) -> list[render.Moment]:
 def furnish(stage: Stage, options: argparse.Namespace) -> None:
     """What is only looked at."""
     scene = bpy.context.scene
-    seen = [stage.box, scenery.add_shelf_board(stage.shelf), scenery.add_pallet(stage.home),
-            *(item for item in stage.worker.children if item.type == "MESH")]
+    seen = [stage.box, *stage.furniture, *(item for item in stage.worker.children if item.type == "MESH")]
     points = render.bounds_over(seen, range(scene.frame_start, scene.frame_end + 1, 3))
     toward_left = options.x >= 0.0  # the shelf is not between the camera and the worker
     render.add_studio(Vector(points.min(axis=0) + points.max(axis=0)) / 2.0, toward_left)

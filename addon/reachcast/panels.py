@@ -25,7 +25,7 @@ class REACHCAST_PT_lift(_Tab, bpy.types.Panel):
         settings = context.scene.reachcast
         column = self.layout.column(align=True)
         for words, name in (("Rig", "rig"), ("does", "errand"), ("with", "box"), ("from", "home"), ("to", "shelf"),
-                            ("as in", "corpus")):
+                            ("past", "obstacles"), ("as in", "corpus")):
             _sentence_part(column, settings, words, name)
         blocking = [need for need in needs(settings) if need.reason]
         for need in blocking:

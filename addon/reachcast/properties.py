@@ -57,6 +57,10 @@ class ReachcastSettings(bpy.types.PropertyGroup):
     shelf: bpy.props.PointerProperty(
         name="Shelf", type=bpy.types.Object, poll=_is_place,
         description="The Empty where the middle of the box's base ends")
+    obstacles: bpy.props.PointerProperty(
+        name="Obstacles", type=bpy.types.Collection,
+        description="The collection whose meshes the box and the hands keep clear of, such as the shelf's boards. "
+                    "Arms and body are not looked at")
     corpus: bpy.props.StringProperty(
         name="Corpus", subtype="FILE_PATH",
         description="The file of recorded motions to learn from; empty takes the one that ships with the add-on")

@@ -88,6 +88,19 @@ std::vector<Phase> to_phases(const std::vector<std::string>& names) {
   return phases;
 }
 
+std::shared_ptr<const Obstacles> to_obstacles(const std::optional<DoubleArray>& given) {
+  if (!given || given->size() == 0) return nullptr;
+  require_shape(*given, "obstacles", {kAnySize, 3, 3});
+  std::vector<Triangle> triangles(static_cast<std::size_t>(given->shape(0)));
+  const double* value = given->data();
+  for (Triangle& triangle : triangles) {
+    for (Vec3& corner : triangle) {
+      for (int axis = 0; axis < 3; ++axis) corner[axis] = *value++;
+    }
+  }
+  return std::make_shared<const Obstacles>(std::move(triangles));
+}
+
 /// A number is meant for every phase.
 std::map<Phase, double> to_durations(const std::variant<std::monostate, double, std::map<std::string, double>>& given,
                                      const std::vector<Phase>& phases) {
@@ -104,15 +117,21 @@ std::map<Phase, double> to_durations(const std::variant<std::monostate, double, 
 Motion predict_motion(const Corpus& corpus, const Subject& subject, const Task& task, const std::optional<Body>& body,
                       double frame_rate, std::optional<int> k, const std::vector<std::string>& phases,
                       const std::variant<std::monostate, double, std::map<std::string, double>>& duration,
-                      const py::object& given_scheme, const py::kwargs& unknown) {
-  refuse_unknown(unknown, "predict", "body, frame_rate, k, phases, duration, scheme");
+                      const std::optional<DoubleArray>& obstacles, double clearance, const py::object& given_scheme,
+                      const py::kwargs& unknown) {
+  refuse_unknown(unknown, "predict", "body, frame_rate, k, phases, duration, obstacles, clearance, scheme");
   const Scheme scheme = to_scheme(k, given_scheme);
+  const std::shared_ptr<const Obstacles> surfaces = to_obstacles(obstacles);
   const py::gil_scoped_release without_gil;
   const Body mover = body ? *body : Body::from_stature(subject.stature_m, subject.sex);
   const std::vector<Phase> order = to_phases(phases);
-  return predict(
-      corpus, subject, task, mover,
-      {.frame_rate = frame_rate, .scheme = scheme, .phases = order, .durations_s = to_durations(duration, order)});
+  return predict(corpus, subject, task, mover,
+                 {.frame_rate = frame_rate,
+                  .scheme = scheme,
+                  .phases = order,
+                  .durations_s = to_durations(duration, order),
+                  .obstacles = surfaces,
+                  .clearance_m = clearance});
 }
 
 void bind_task(py::module_& m) {
@@ -236,12 +255,13 @@ void bind_predict(py::module_& m) {
       "predict", &predict_motion, py::arg("corpus"), py::arg("subject"), py::arg("task"), py::arg("body") = py::none(),
       py::kw_only(), py::arg("frame_rate") = 24.0, py::arg("k") = py::none(),
       py::arg("phases") = std::vector<std::string>{"transfer"}, py::arg("duration") = py::none(),
-      py::arg("scheme") = py::none(),
+      py::arg("obstacles") = py::none(), py::arg("clearance") = 0.02, py::arg("scheme") = py::none(),
       "Corpus, Subject, Task, Body -> Motion. Without a body, published proportions of the subject. k: neighbours in "
       "the mean, 5 unless the scheme says otherwise; scheme: which motions are averaged and how, a dict as "
       "cross_validate takes it. phases: any of 'reach' (empty hands from the sides to the object), 'transfer' (home to "
-      "target), "
-      "'return' (back to the sides), 'retrieve' (target to home) in an order that can be performed; the object stands "
+      "target), 'return' (back to the sides), 'retrieve' (target to home) in an order that can be performed; the "
+      "object stands "
       "where the first loaded phase takes it from, at the target when there is none. duration: seconds of each phase, "
-      "or a dict from phase to seconds; else the neighbours' mean.");
+      "or a dict from phase to seconds; else the neighbours' mean. obstacles: (triangles, 3, 3) corners, body frame, "
+      "that the box and the hands keep `clearance` metres away from; arms and body are not looked at.");
 }

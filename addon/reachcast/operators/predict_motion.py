@@ -26,7 +26,7 @@ class REACHCAST_OT_predict_motion(bpy.types.Operator):
             result = predict_motion(
                 settings.rig, settings.shelf, corpus=settings.corpus, home=settings.home, box=settings.box,
                 stature=settings.stature or None, sex=core_sex(settings.sex), bone_map=settings.bone_map or None,
-                phases=ERRANDS[settings.errand], scene=context.scene)
+                phases=ERRANDS[settings.errand], obstacles=meshes_in(settings.obstacles), scene=context.scene)
         except (ValueError, RuntimeError) as error:  # a mistake of the user's; a file that cannot be used
             context.window_manager.reachcast_problem = str(error)
             self.report({"ERROR"}, str(error))
@@ -34,6 +34,10 @@ class REACHCAST_OT_predict_motion(bpy.types.Operator):
         context.window_manager.reachcast_problem = ""
         self.report({"INFO"}, summary(result))
         return {"FINISHED"}
+
+
+def meshes_in(collection: bpy.types.Collection | None) -> list[bpy.types.Object]:
+    return [item for item in collection.all_objects if item.type == "MESH"] if collection else []
 
 
 def summary(result: PredictionResult) -> str:

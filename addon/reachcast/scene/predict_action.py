@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType, ModuleType
@@ -22,6 +22,7 @@ from ..rigs.rotations import Array
 from ..rigs.skeleton import Skeleton
 from .action_writer import refuse_unwritable
 from .movers import moves_bones, moves_object, refuse_moved
+from .read_obstacles import read_obstacles
 from .read_rig import read_rig
 from .read_task import Lift, read_lift, refuse_held_box
 from .transforms import above_matrix, layer_of, refuse_removed
@@ -65,13 +66,14 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
                    stature: float | None = None, sex: str | None = None, age: float | None = None,
                    mass: float | None = None, bone_map: BoneMap | str | Path | None = None,
                    start_frame: int | None = None, scene: bpy.types.Scene | None = None,
-                   phases: Sequence[str] = ("transfer",), **options: object) -> PredictionResult:
+                   phases: Sequence[str] = ("transfer",), obstacles: Iterable[bpy.types.Object] = (), **options: object) -> PredictionResult:
     """Predicts how `rig` carries `box` to `shelf` and writes a new Action on the rig, and one on the box if given.
 
     corpus: a path or an opened reachcast_core.Corpus; None takes the one that ships. stature in metres (None: the
     rig's own height), age in years, mass in kg. phases: any of "reach" (empty hands to the box), "transfer" (from home to
     the shelf), "return" (hands to the sides) and "retrieve" (back home), in an order that can be performed; the box
-    stands where the first loaded phase takes it from. Objects are taken where they are in the scene's current frame, and the
+    stands where the first loaded phase takes it from. obstacles: mesh objects that the box and the hands keep clear of
+    (option clearance, metres); the rig and the box are none. Objects are taken where they are in the scene's current frame, and the
     motion starts there or at start_frame. Other options go to reachcast_core.predict. Everything is read and checked
     first: on ValueError nothing has been written.
     """
@@ -83,8 +85,10 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
     lift = read_lift(skeleton, shelf, home, box, layer)
     _refuse_owners(rig, skeleton, box, layer)
     subject = _subject(core, skeleton, stature, sex, age, mass)
+    surfaces = read_obstacles(skeleton, [item for item in obstacles if item not in {rig, box}], layer)
     motion = _predict(core, skeleton, lift, corpus, subject,
-                      {"frame_rate": scene.render.fps / scene.render.fps_base, "phases": list(phases), **options})
+                      {"frame_rate": scene.render.fps / scene.render.fps_base, "phases": list(phases),
+                       "obstacles": surfaces, **options})
     joints = skeleton.to_world(np.asarray(motion.positions, float))
     pose = retarget(skeleton, joints)
     places = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))

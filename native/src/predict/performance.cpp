@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <stdexcept>
 
 #include "reachcast/motion/encode.hpp"
 #include "reachcast/posture/linkage.hpp"
 #include "reachcast/posture/twist.hpp"
+#include "reachcast/predict/stand.hpp"
 
 namespace reachcast {
 namespace {
@@ -20,8 +23,11 @@ constexpr double kOpening_m = 0.03;       // how far each hand keeps from the si
 constexpr double kClosed = 0.15;          // share of an empty hand's way over which it opens, next to the object
 constexpr double kPast = 0.8;             // and by which the opening has gone
 constexpr double kMostBoxTurn_rad = 0.5;  // that recorded hands may add to a box's turn on its way
-constexpr double kHangOutwards = 0.12, kHangForwards = 0.10;  // per metre downwards
-constexpr double kHangStretch = 0.97;                         // of the arm's length
+
+constexpr int kLooks = 64;          // along a way, for obstacles
+constexpr double kTouch_m = 0.004;  // what stands on a surface may seem to lie in it by so much
+constexpr double kNear_m = 0.10;    // of its place, where the clearance shrinks to nothing
+constexpr double kHand_m = 0.09;    // a closed hand
 
 double heading(const Vec3& v) {
   return std::atan2(v.y, v.x);
@@ -37,19 +43,6 @@ Vec3 hold_point(const Grips& grips) {
   return 0.5 * (grips[0] + grips[1]);
 }
 
-Grips hanging_grips(const Body& body) {
-  using enum Joint;
-  Grips grips;
-  for (const bool left : {true, false}) {
-    const Joint shoulder = left ? left_shoulder : right_shoulder, elbow = left ? left_elbow : right_elbow;
-    const Joint wrist = left ? left_wrist : right_wrist, grip = left ? left_grip : right_grip;
-    const double arm = body.distance(shoulder, elbow) + body.distance(elbow, wrist);
-    const Vec3 down = glm::normalize(Vec3(left ? -kHangOutwards : kHangOutwards, kHangForwards, -1.0));
-    grips[left ? 0 : 1] = body.at(shoulder) + down * (kHangStretch * arm + body.distance(wrist, grip));
-  }
-  return grips;
-}
-
 Grips grips_on(const Task& task, Place place) {
   const BoxPose pose =
       place == Place::home ? BoxPose{task.home, task.home_yaw_rad} : BoxPose{task.target, task.target_yaw_rad};
@@ -58,13 +51,14 @@ Grips grips_on(const Task& task, Place place) {
 
 HandEnds hand_ends(const Stage& stage, const Task& task, const Body& body) {
   const Grips here = grips_on(task, stage.object);
-  if (stage.phase == Phase::reach) return {hanging_grips(body), here};
-  if (stage.phase == Phase::return_) return {here, hanging_grips(body)};
-  return {here, grips_on(task, stage.object == Place::home ? Place::target : Place::home)};
+  const Grips hanging = anchors_of(standing_at_ease(body)).grip;
+  if (stage.phase == Phase::reach) return {hanging, here};
+  if (stage.phase == Phase::return_) return {here, hanging};
+  return {here, grips_on(task, other(stage.object))};
 }
 
 Performance::Performance(const Plan& plan, const std::vector<Blend>& blends, const Task& task, const Body& body,
-                         double body_mass_kg, double frame_rate, bool raised)
+                         double body_mass_kg, double frame_rate)
     : plan_(plan),
       task_(task),
       body_(body),
@@ -75,38 +69,122 @@ Performance::Performance(const Plan& plan, const std::vector<Blend>& blends, con
       holder_(two_handed_linkage(), body, body_mass_kg) {
   for (std::size_t i = 0; i < plan.stages.size(); ++i) {
     const Stage& stage = plan.stages[i];
-    Act act{&stage, &blends[i], hand_ends(stage, task, body), path_of(blends[i].whole), {}, 0.0, {}, {}};
-    if (raised && is_loaded(stage.phase)) {
-      const Vec3 from = place_pose(stage.object).position;
-      const Vec3 to = place_pose(stage.object == Place::home ? Place::target : Place::home).position;
-      act.clearance = EdgeClearance([&](double t) { return point_at(act.path, from, to, t); }, task.object);
-    }
-    acts_.push_back(std::move(act));
+    acts_.push_back({&stage, &blends[i], hand_ends(stage, task, body), path_of(blends[i].whole), {}, {}, 0.0, {}, {}});
   }
   for (std::size_t i = 0; i < acts_.size(); ++i) join(i);
+  find_openings();
+}
+
+/// Hands that cannot keep clear of the object because they are at the end of their reach stay close.
+void Performance::find_openings() {
   for (Act& act : acts_) {
     if (!is_loaded(act.stage->phase)) act.opening_m = opening_of(act);
   }
   last_opening_m_ = kOpening_m;
-  const auto end = static_cast<double>(plan_.end);
-  HoldReport report;
-  if (is_loaded(acts_.back().stage->phase)) {
-    const Anchors opened = anchors(grips(end));
-    (void)holder_.hold(decoded(end, opened), opened, load(end), report);
+  if (is_loaded(acts_.back().stage->phase) && report_at(static_cast<double>(plan_.end)).shortfall_m > 0.0) {
+    last_opening_m_ = 0.0;
   }
-  if (report.shortfall_m > 0.0) last_opening_m_ = 0.0;  // hands at the end of their reach stay
 }
 
-/// Coordinates at the joint of two stages are the mean of where the one ends and the other begins.
+void Performance::raise_over_edges() {
+  for (Act& act : acts_) {
+    if (!is_loaded(act.stage->phase)) continue;
+    const Vec3 from = place_pose(act.stage->object).position, to = place_pose(other(act.stage->object)).position;
+    act.clearance = EdgeClearance([&](double t) { return point_at(act.path, from, to, t); }, task_.object);
+  }
+}
+
+std::vector<std::size_t> Performance::go_round(const Obstacles& obstacles, double clearance_m,
+                                               const std::vector<std::size_t>& first_shapes) {
+  for (const Act& act : acts_) {
+    require_free_place(act.stage->object, obstacles);
+    if (is_loaded(act.stage->phase)) require_free_place(other(act.stage->object), obstacles);
+  }
+  std::vector<std::size_t> taken = first_shapes;
+  for (std::size_t i = 0; i < acts_.size(); ++i) {
+    for (;; ++taken[i]) {
+      if (taken[i] == path_shapes().size()) {
+        throw std::invalid_argument("no way past the obstacles was found for the " +
+                                    std::string(is_loaded(acts_[i].stage->phase) ? "box" : "hands") + " in phase " +
+                                    std::string(phase_name(acts_[i].stage->phase)));
+      }
+      acts_[i].shape = path_shapes()[taken[i]];
+      if (is_free(acts_[i], obstacles, clearance_m)) break;
+    }
+  }
+  return taken;
+}
+
+void Performance::require_free_place(Place place, const Obstacles& obstacles) const {
+  const Box& box = task_.object;
+  const BoxPose pose = place_pose(place);
+  const Vec3 size = Vec3(box.width_m, box.depth_m, box.height_m) - 2.0 * kTouch_m;
+  if (!obstacles.meet({pose.position + Vec3(0, 0, 0.5 * box.height_m), glm::max(size, 0.001), pose.yaw_rad})) return;
+  throw std::invalid_argument(std::string("the box would stand in an obstacle at the ") +
+                              (place == Place::home ? "home" : "target") + ", by more than " +
+                              std::to_string(std::lround(1000.0 * kTouch_m)) + " mm");
+}
+
+bool Performance::is_free(const Act& act, const Obstacles& obstacles, double clearance_m) const {
+  const Box& box = task_.object;
+  const bool loaded = is_loaded(act.stage->phase);
+  const Vec3 first = hold_point(act.hands.first), last = hold_point(act.hands.last);
+  for (int i = 1; i < kLooks; ++i) {
+    const double t = static_cast<double>(i) / kLooks;
+    const BoxPose pose = loaded ? carried_object(act, t) : BoxPose{};
+    const Grips grips = loaded ? Grips{grip_of(box, pose, true), grip_of(box, pose, false)} : empty_grips(act, t);
+    const Vec3 hold = hold_point(grips);
+    const double away = std::min(glm::distance(hold, first), glm::distance(hold, last));
+    const double keep = 2.0 * (clearance_m * std::min(1.0, away / kNear_m) - kTouch_m);
+    const auto meets = [&](const Vec3& centre, const Vec3& size) {
+      return obstacles.meet({centre, glm::max(size + keep, 0.001), pose.yaw_rad});
+    };
+    if (loaded && meets(pose.position + Vec3(0, 0, 0.5 * box.height_m), {box.width_m, box.depth_m, box.height_m}))
+      return false;
+    if (away > kNear_m && (meets(grips[0], Vec3(kHand_m)) || meets(grips[1], Vec3(kHand_m)))) return false;
+  }
+  return true;
+}
+
+Vec3 Performance::towards_person(const Vec3& from, const Vec3& to) const {
+  const Vec3 middle = 0.5 * (from + to);
+  const Vec3 level(between_ankles_.x - middle.x, between_ankles_.y - middle.y, 0.0);
+  return glm::length(level) > 1e-6 ? glm::normalize(level) : Vec3(0, -1, 0);
+}
+
+Vec3 Performance::way(const Act& act, const Vec3& from, const Vec3& to, double t) const {
+  return shaped_point_at(act.path, from, to, act.shape, towards_person(from, to), t);
+}
+
+double Performance::bent_m() const {
+  double most = 0.0;
+  for (const Act& act : acts_) {
+    const Vec3 from = hold_point(act.hands.first), to = hold_point(act.hands.last);
+    most = std::max(most, bend_of(act.path, from, to, act.shape, towards_person(from, to)));
+  }
+  return most;
+}
+
+/// Coordinates where two stages meet are the mean of where the one ends and the other begins; where the hands hang they
+/// are those of this body standing at ease.
 void Performance::join(std::size_t i) {
   const auto between = [&](const Blend& before, const Blend& after) {
     return Eigen::VectorXd(0.5 * (coordinates_at(before, 1.0) + coordinates_at(after, 0.0)));
   };
+  const auto at_ease = [&] { return encode_posture(two_handed_linkage(), standing_at_ease(body_)); };
   Act& act = acts_[i];
   const Eigen::VectorXd first = coordinates_at(*act.blend, 0.0), last = coordinates_at(*act.blend, 1.0);
   act.first_shift = act.last_shift = Eigen::VectorXd::Zero(first.size());
-  if (i > 0) act.first_shift = between(*acts_[i - 1].blend, *act.blend) - first;
-  if (i + 1 < acts_.size()) act.last_shift = between(*act.blend, *acts_[i + 1].blend) - last;
+  if (act.stage->phase == Phase::reach) {
+    act.first_shift = at_ease() - first;
+  } else if (i > 0) {
+    act.first_shift = between(*acts_[i - 1].blend, *act.blend) - first;
+  }
+  if (act.stage->phase == Phase::return_) {
+    act.last_shift = at_ease() - last;
+  } else if (i + 1 < acts_.size()) {
+    act.last_shift = between(*act.blend, *acts_[i + 1].blend) - last;
+  }
 }
 
 /// Hands that cannot go round the object's corners because they are at the end of their reach go straight.
@@ -160,10 +238,9 @@ BoxPose Performance::object(double moment) const {
 /// The box turns with the person who carries it, from its turn at the one place to its turn at the other, and as much
 /// more as recorded hands have turned on their way.
 BoxPose Performance::carried_object(const Act& act, double t) const {
-  const BoxPose from = place_pose(act.stage->object),
-                to = place_pose(act.stage->object == Place::home ? Place::target : Place::home);
+  const BoxPose from = place_pose(act.stage->object), to = place_pose(other(act.stage->object));
   const Vec3 up(0.0, 0.0, task_.object.handle_height_m);
-  const Vec3 position = point_at(act.path, from.position, to.position, t) + Vec3(0, 0, act.clearance.rise_m(t));
+  const Vec3 position = way(act, from.position, to.position, t) + Vec3(0, 0, act.clearance.rise_m(t));
   const auto facing = [&](const Vec3& place) { return facing_yaw(between_ankles_, place + up); };
   const double first = from.yaw_rad - facing(from.position);
   const double more = std::remainder(to.yaw_rad - facing(to.position) - first, 2.0 * kPi);
@@ -178,7 +255,7 @@ BoxPose Performance::carried_object(const Act& act, double t) const {
 /// hand that is empty has a trajectory of its own).
 Grips Performance::empty_grips(const Act& act, double t) const {
   const Vec3 from = hold_point(act.hands.first), to = hold_point(act.hands.last);
-  const Vec3 hold = point_at(act.path, from, to, t);
+  const Vec3 hold = way(act, from, to, t);
   const auto recorded = [&](double at, const Vec3& held) {
     return turned(body_.stature_m() * separation_at(act.blend->whole, at), facing_yaw(between_ankles_, held));
   };
@@ -246,6 +323,13 @@ Posture Performance::posture(double moment, const Tracks& tracks, HoldReport& re
   const double time_s = moment / frame_rate_;
   return holder_.hold(tracks.learned.at(time_s), tracks.stance.at(time_s), anchors(grips(moment)), load(moment),
                       report);
+}
+
+HoldReport Performance::report_at(double moment) const {
+  const Anchors at = anchors(grips(moment));
+  HoldReport report;
+  (void)holder_.hold(decoded(moment, at), at, load(moment), report);
+  return report;
 }
 
 Anchors Performance::anchors(const Grips& grips) const {

@@ -18,10 +18,6 @@ std::size_t frames_in(double seconds, double rate) {
   return static_cast<std::size_t>(std::max(1L, std::lround(seconds * rate)));
 }
 
-Place other(Place place) {
-  return place == Place::home ? Place::target : Place::home;
-}
-
 [[noreturn]] void refuse(std::span<const Phase> phases, std::size_t at, const std::string& why) {
   std::string text;
   for (const Phase p : phases) text += (text.empty() ? "" : ", ") + std::string(phase_name(p));
@@ -40,6 +36,10 @@ class EventList {
 };
 
 }  // namespace
+
+Place other(Place place) {
+  return place == Place::home ? Place::target : Place::home;
+}
 
 std::optional<std::size_t> Plan::frame_of(std::string_view event) const {
   const auto found = std::find_if(events.begin(), events.end(), [&](const Event& e) { return e.name == event; });

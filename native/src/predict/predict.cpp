@@ -13,6 +13,7 @@ namespace reachcast {
 namespace {
 
 constexpr double kUnbalanced_m = 0.02;  // weight this far beyond the feet is reported
+constexpr int kMostWaysRound = 12;
 constexpr double kFarFromData_m = 0.25;
 constexpr double kStatureMargin_m = 0.03;
 
@@ -29,6 +30,9 @@ void check(const Subject& subject, const PredictOptions& options) {
   }
   if (!(options.frame_rate >= 1.0 && options.frame_rate <= 1000.0)) {
     fail("frame_rate is ", options.frame_rate, "; it must lie between 1 and 1000");
+  }
+  if (!(options.clearance_m >= 0.0 && options.clearance_m <= 0.5)) {
+    fail("clearance is ", options.clearance_m, " m; it must lie between 0 and 0.5 m");
   }
   for (const auto& [phase, seconds] : options.durations_s) {
     if (!(seconds >= 0.1 && seconds <= 60.0)) {
@@ -143,6 +147,8 @@ std::optional<Failure> perform(const Performance& performance, double frame_rate
   motion.corrections.clear();
   if (performance.raised_m() > 1e-3)
     motion.corrections.push_back({"edge", performance.raised_m(), 0.0, carried_frames(motion.plan)});
+  if (performance.bent_m() > 1e-3)
+    motion.corrections.push_back({"obstacles", performance.bent_m(), 0.0, carried_frames(motion.plan)});
   if (trunk.frames > 0) motion.corrections.push_back(trunk);
   if (unbalanced.frames > 0) motion.corrections.push_back(unbalanced);
   return worst;
@@ -188,6 +194,53 @@ double seconds_of(Phase phase, const Blend& blend, const PredictOptions& options
   return given_seconds(phase, options).value_or(blend.whole.duration_s);
 }
 
+/// Raising the path over an edge is a courtesy: a path that can only be held as it was learned stays as it was.
+void perform_freely(const std::vector<Blend>& blends, const Subject& subject, const Task& task, const Body& body,
+                    const PredictOptions& options, Motion& motion) {
+  for (const bool raised : {true, false}) {
+    Performance performance(motion.plan, blends, task, body, body_mass(subject), options.frame_rate);
+    if (raised) performance.raise_over_edges();
+    const std::optional<Failure> failure = perform(performance, options.frame_rate, motion);
+    if (!failure) return;
+    if (!raised || standing_place(motion.plan, failure->frame)) {
+      fail_out_of_reach(*failure, motion, hold_point(performance.grips(static_cast<double>(failure->frame))));
+    }
+  }
+}
+
+/// That a place is out of reach is said before anything about the way to it.
+void require_places_in_reach(const Performance& performance, Motion& motion) {
+  for (const Stage& stage : motion.plan.stages) {
+    for (const std::size_t frame : {stage.first, stage.last}) {
+      const HoldReport report = performance.report_at(static_cast<double>(frame));
+      if (report.shortfall_m == 0.0) continue;
+      motion.box.resize(frame + 1);
+      motion.box[frame] = performance.object(static_cast<double>(frame));
+      fail_out_of_reach({frame, report}, motion, hold_point(performance.grips(static_cast<double>(frame))));
+    }
+  }
+}
+
+/// Ways round the obstacles that this body cannot hold give way to the next.
+void perform_past(const Obstacles& obstacles, const std::vector<Blend>& blends, const Subject& subject,
+                  const Task& task, const Body& body, const PredictOptions& options, Motion& motion) {
+  std::vector<std::size_t> shapes(blends.size(), 0);
+  for (int attempt = 1;; ++attempt) {
+    Performance performance(motion.plan, blends, task, body, body_mass(subject), options.frame_rate);
+    if (attempt == 1) require_places_in_reach(performance, motion);
+    shapes = performance.go_round(obstacles, options.clearance_m, shapes);
+    const std::optional<Failure> failure = perform(performance, options.frame_rate, motion);
+    if (!failure) return;
+    if (attempt == kMostWaysRound || standing_place(motion.plan, failure->frame)) {
+      fail_out_of_reach(*failure, motion, hold_point(performance.grips(static_cast<double>(failure->frame))));
+    }
+    const auto& stages = motion.plan.stages;
+    const auto stage =
+        std::find_if(stages.begin(), stages.end() - 1, [&](const Stage& s) { return failure->frame <= s.last; });
+    ++shapes[static_cast<std::size_t>(stage - stages.begin())];
+  }
+}
+
 }  // namespace
 
 Motion predict(const Corpus& corpus, const Subject& subject, const Task& task, const Body& body,
@@ -206,15 +259,10 @@ Motion predict(const Corpus& corpus, const Subject& subject, const Task& task, c
     seconds[blends.size() - 1] = seconds_of(stage.phase, blends.back(), options);
   }
   motion.plan = plan_phases(options.phases, seconds, options.frame_rate);
-  // Raising the path over an edge is a courtesy: a path that can only be held as it was learned stays as it was.
-  std::optional<Failure> failure;
-  for (const bool raised : {true, false}) {
-    const Performance performance(motion.plan, blends, task, body, body_mass(subject), options.frame_rate, raised);
-    failure = perform(performance, options.frame_rate, motion);
-    if (!failure) return motion;
-    if (!raised || standing_place(motion.plan, failure->frame)) {
-      fail_out_of_reach(*failure, motion, hold_point(performance.grips(static_cast<double>(failure->frame))));
-    }
+  if (options.obstacles && !options.obstacles->empty()) {
+    perform_past(*options.obstacles, blends, subject, task, body, options, motion);
+  } else {
+    perform_freely(blends, subject, task, body, options, motion);
   }
   return motion;
 }

@@ -10,6 +10,8 @@
 #include "reachcast/posture/trunk_pose.hpp"
 #include "reachcast/predict/approach.hpp"
 #include "reachcast/predict/blend.hpp"
+#include "reachcast/predict/obstacles.hpp"
+#include "reachcast/predict/path_around.hpp"
 #include "reachcast/predict/plan.hpp"
 #include "reachcast/predict/stance_track.hpp"
 
@@ -20,13 +22,10 @@ using Grips = std::array<Vec3, 2>;
 
 [[nodiscard]] Vec3 hold_point(const Grips& grips);
 
-/// Where the hands of a person who stands at ease hang: beside the thighs, a little ahead, the elbows nearly straight.
-[[nodiscard]] Grips hanging_grips(const Body& body);
-
 /// The hands' grips on the object where it stands.
 [[nodiscard]] Grips grips_on(const Task& task, Place place);
 
-/// Hands at the start and the end of a stage.
+/// Hands at the start and the end of a stage. Empty ones come from, and go back to, where they hang (stand.hpp).
 struct HandEnds {
   Grips first, last;
 };
@@ -34,15 +33,26 @@ struct HandEnds {
 
 class Performance {
  public:
-  /// One blend per stage of the plan. All references must outlive the performance. `raised`: the object's path is
-  /// raised over the edges of what it stands on (approach.hpp).
+  /// One blend per stage of the plan. All references must outlive the performance.
   Performance(const Plan& plan, const std::vector<Blend>& blends, const Task& task, const Body& body,
-              double body_mass_kg, double frame_rate, bool raised);
+              double body_mass_kg, double frame_rate);
 
-  /// How far the object's path is raised at most.
+  /// Raises the object's path over the edges of what it may stand on (approach.hpp).
+  void raise_over_edges();
+  /// Bends the ways of object and hands round the obstacles, each by the first of path_shapes() from the one given for
+  /// its stage on that keeps `clearance_m`, less and less over the last 10 cm before a place. Returns the shapes taken.
+  /// Throws std::invalid_argument when the object would stand in an obstacle, or none is left for a stage.
+  std::vector<std::size_t> go_round(const Obstacles& obstacles, double clearance_m,
+                                    const std::vector<std::size_t>& first_shapes);
+
+  /// How far the object's path is raised over edges at most, and how far a path is bent round obstacles.
   [[nodiscard]] double raised_m() const;
+  [[nodiscard]] double bent_m() const;
   [[nodiscard]] BoxPose object(double moment) const;
   [[nodiscard]] Grips grips(double moment) const;
+
+  /// How the posture of this moment can be held, by itself.
+  [[nodiscard]] HoldReport report_at(double moment) const;
 
   /// The learned trunk and what must be changed about it, found at moments that do not depend on the frame rate.
   struct Tracks {
@@ -57,13 +67,19 @@ class Performance {
     const Stage* stage = nullptr;
     const Blend* blend = nullptr;
     HandEnds hands;
-    EndpointPath path;                        ///< of the hold point, or of the object's origin
-    EdgeClearance clearance;                  ///< of a loaded stage
+    EndpointPath path;        ///< of the hold point, or of the object's origin
+    EdgeClearance clearance;  ///< of a loaded stage
+    PathShape shape;
     double opening_m = 0.0;                   ///< how far empty hands stay clear of the object's sides
     Eigen::VectorXd first_shift, last_shift;  ///< of the posture's coordinates, so that stages meet
   };
 
   void join(std::size_t act);
+  void find_openings();
+  [[nodiscard]] bool is_free(const Act& act, const Obstacles& obstacles, double clearance_m) const;
+  void require_free_place(Place place, const Obstacles& obstacles) const;
+  [[nodiscard]] Vec3 way(const Act& act, const Vec3& from, const Vec3& to, double t) const;
+  [[nodiscard]] Vec3 towards_person(const Vec3& from, const Vec3& to) const;
   [[nodiscard]] double opening_of(const Act& act) const;
   [[nodiscard]] const Act& hands_act(double moment) const;
   [[nodiscard]] const Act& body_act(double moment) const;

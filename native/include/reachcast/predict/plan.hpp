@@ -19,6 +19,7 @@ struct Event {
 };
 
 enum class Place { home, target };
+[[nodiscard]] Place other(Place place);
 
 /// One phase of a performance. Times are frames, from the beginning of the performance, with fractions.
 struct Stage {

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "reachcast/body/body.hpp"
 #include "reachcast/predict/neighbours.hpp"
+#include "reachcast/predict/obstacles.hpp"
 #include "reachcast/predict/plan.hpp"
 #include "reachcast/predict/task.hpp"
 
@@ -19,6 +21,9 @@ struct PredictOptions {
   /// In this order. The object stands where the first loaded phase takes it from, at the target when none is loaded.
   std::vector<Phase> phases{Phase::transfer};
   std::map<Phase, double> durations_s{};  ///< of a phase's own motion, 0.1 to 60; else the neighbours' mean
+  /// What the object and the hands keep clear of, body frame; none when empty. Arms and body are not looked at.
+  std::shared_ptr<const Obstacles> obstacles{};
+  double clearance_m = 0.02;  ///< 0 to 0.5
 };
 
 /// The motions that a phase rests on, heaviest first.
@@ -29,7 +34,8 @@ struct PhaseNeighbours {
 
 /// A change made after decoding, or what no change could mend; largest over the frames.
 struct Correction {
-  /// "trunk": moved as hold.hpp says; "edge": the path of the box raised as approach.hpp says; "unbalanced": the weight
+  /// "trunk": moved as hold.hpp says; "edge": the path of the box raised as approach.hpp says (when no obstacles are
+  /// given); "obstacles": a path bent as path_around.hpp says; "unbalanced": the weight
   /// lies this far beyond the feet, a person would step or fall.
   std::string name;
   double amount_m = 0.0;
