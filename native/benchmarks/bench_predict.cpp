@@ -142,8 +142,8 @@ BENCHMARK(bm_decode_links)->RangeMultiplier(2)->Range(4, 256)->Complexity(benchm
 
 void bm_neighbours(benchmark::State& state) {
   const std::shared_ptr<const MotionTable> table = bench_corpus().table();
-  const Query query{Phase::transfer, {0.0, 0.42, 0.12}, {0.1, 0.42, 1.12}, 1.72};
-  for (auto _ : state) benchmark::DoNotOptimize(nearest_motions(*table, query, End::target, 5));
+  const Query query{Phase::transfer, {0.0, 0.42, 0.12}, {0.1, 0.42, 1.12}, kSubject, {}};
+  for (auto _ : state) benchmark::DoNotOptimize(nearest_motions(*table, query, End::target, Scheme{.k = 5}));
 }
 BENCHMARK(bm_neighbours)->Unit(benchmark::kMicrosecond);
 

@@ -9,8 +9,8 @@
 #include "array_checks.hpp"
 #include "body_conversions.hpp"
 #include "module.hpp"
-#include "reachcast/predict/cross_validate.hpp"
 #include "reachcast/predict/predict.hpp"
+#include "scheme_conversions.hpp"
 
 namespace py = pybind11;
 using namespace reachcast;
@@ -115,52 +115,23 @@ std::map<Phase, double> to_durations(const std::variant<std::monostate, double, 
 }
 
 Motion predict_motion(const Corpus& corpus, const Subject& subject, const Task& task, const std::optional<Body>& body,
-                      double frame_rate, int k, const std::vector<std::string>& phases,
+                      double frame_rate, std::optional<int> k, const std::vector<std::string>& phases,
                       const std::variant<std::monostate, double, std::map<std::string, double>>& duration,
-                      const std::optional<DoubleArray>& obstacles, double clearance) {
+                      const std::optional<DoubleArray>& obstacles, double clearance, const py::object& given_scheme,
+                      const py::kwargs& unknown) {
+  refuse_unknown(unknown, "predict", "body, frame_rate, k, phases, duration, obstacles, clearance, scheme");
+  const Scheme scheme = to_scheme(k, given_scheme);
   const std::shared_ptr<const Obstacles> surfaces = to_obstacles(obstacles);
   const py::gil_scoped_release without_gil;
   const Body mover = body ? *body : Body::from_stature(subject.stature_m, subject.sex);
   const std::vector<Phase> order = to_phases(phases);
   return predict(corpus, subject, task, mover,
                  {.frame_rate = frame_rate,
-                  .neighbours = k,
+                  .scheme = scheme,
                   .phases = order,
                   .durations_s = to_durations(duration, order),
                   .obstacles = surfaces,
                   .clearance_m = clearance});
-}
-
-py::list cross_validation(const Corpus& corpus, const std::vector<py::dict>& schemes, const std::string& leave_out) {
-  if (leave_out != "motion" && leave_out != "subject") {
-    throw std::invalid_argument("leave_out is '" + leave_out + "'; it must be 'motion' or 'subject'");
-  }
-  std::vector<Scheme> wanted;
-  for (const py::dict& scheme : schemes) {
-    for (const auto& [key, value] : scheme) {
-      if (!py::isinstance<py::str>(key) || key.cast<std::string>() != "k" || !py::isinstance<py::int_>(value)) {
-        throw std::invalid_argument("schemes: each is a dict like {'k': 5} with a whole number; found " +
-                                    py::repr(scheme).cast<std::string>());
-      }
-    }
-    wanted.push_back({.neighbours = scheme.contains("k") ? scheme["k"].cast<int>() : Scheme{}.neighbours});
-  }
-  std::vector<SchemeError> rows;
-  {
-    const py::gil_scoped_release without_gil;
-    rows = cross_validate(corpus, wanted, leave_out == "motion" ? LeaveOut::motion : LeaveOut::subject);
-  }
-  py::list table;
-  for (const SchemeError& row : rows) {
-    py::dict entry;
-    entry["k"] = row.scheme.neighbours;
-    entry["motions"] = row.motions;
-    entry["out_of_reach"] = row.out_of_reach;
-    entry["median"] = row.median_m;
-    entry["quartiles"] = py::make_tuple(row.lower_quartile_m, row.upper_quartile_m);
-    table.append(entry);
-  }
-  return table;
 }
 
 void bind_task(py::module_& m) {
@@ -282,19 +253,15 @@ void bind_predict(py::module_& m) {
   bind_results(m);
   m.def(
       "predict", &predict_motion, py::arg("corpus"), py::arg("subject"), py::arg("task"), py::arg("body") = py::none(),
-      py::kw_only(), py::arg("frame_rate") = 24.0, py::arg("k") = 5,
+      py::kw_only(), py::arg("frame_rate") = 24.0, py::arg("k") = py::none(),
       py::arg("phases") = std::vector<std::string>{"transfer"}, py::arg("duration") = py::none(),
-      py::arg("obstacles") = py::none(), py::arg("clearance") = 0.02,
+      py::arg("obstacles") = py::none(), py::arg("clearance") = 0.02, py::arg("scheme") = py::none(),
       "Corpus, Subject, Task, Body -> Motion. Without a body, published proportions of the subject. k: neighbours in "
-      "the mean. phases: any of 'reach' (empty hands from the sides to the object), 'transfer' (home to target), "
-      "'return' (back to the sides), 'retrieve' (target to home) in an order that can be performed; the object stands "
+      "the mean, 5 unless the scheme says otherwise; scheme: which motions are averaged and how, a dict as "
+      "cross_validate takes it. phases: any of 'reach' (empty hands from the sides to the object), 'transfer' (home to "
+      "target), 'return' (back to the sides), 'retrieve' (target to home) in an order that can be performed; the "
+      "object stands "
       "where the first loaded phase takes it from, at the target when there is none. duration: seconds of each phase, "
       "or a dict from phase to seconds; else the neighbours' mean. obstacles: (triangles, 3, 3) corners, body frame, "
       "that the box and the hands keep `clearance` metres away from; arms and body are not looked at.");
-  m.def("cross_validate", &cross_validation, py::arg("corpus"), py::arg("schemes"), py::arg("leave_out") = "motion",
-        "How well transfers are predicted from the others. schemes: list of dicts with k; leave_out: 'motion' (and its "
-        "mirror "
-        "image) or 'subject'. Returns one dict per scheme: k, motions, out_of_reach, median and quartiles in metres of "
-        "the mean "
-        "distance over time and 23 joints, on the proportions of the subject's stature.");
 }

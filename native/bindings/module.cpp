@@ -17,5 +17,6 @@ PYBIND11_MODULE(reachcast_core, m) {
   bind_mocap(m);
   bind_corpus(m);
   bind_predict(m);
+  bind_cross_validate(m);
   bind_rig(m);
 }

@@ -12,4 +12,5 @@ void bind_variation(pybind11::module_& m);
 void bind_mocap(pybind11::module_& m);
 void bind_corpus(pybind11::module_& m);
 void bind_predict(pybind11::module_& m);
+void bind_cross_validate(pybind11::module_& m);
 void bind_rig(pybind11::module_& m);

@@ -2,99 +2,193 @@
 #include "reachcast/predict/cross_validate.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <memory>
-#include <optional>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
-#include "reachcast/motion/encode.hpp"
-#include "reachcast/posture/hold.hpp"
-#include "reachcast/predict/blend.hpp"
+#include "reachcast/predict/parallel.hpp"
+#include "reachcast/predict/replay.hpp"
+#include "recorded.hpp"
 
 namespace reachcast {
 namespace {
 
-constexpr int kTimes = 21;
+constexpr double kFailed = std::numeric_limits<double>::infinity();
 
-using Postures = std::vector<Posture>;
-using CoordinatesAt = std::function<Eigen::VectorXd(double)>;
+/// Schemes that order motions alike share one search: the neighbours of a smaller k come first among those of a larger.
+struct Selections {
+  std::vector<Scheme> schemes;  ///< each with the largest k
+  std::vector<std::size_t> of;  ///< by number of the scheme
 
-/// A level pair of grips at the recorded distance goes along the path; the body follows. Nothing where it cannot.
-std::optional<Postures> perform(const MotionSummary& motion, const EndpointPath& path,
-                                const CoordinatesAt& coordinates) {
-  if (motion.subject.stature_m < 1.2 || motion.subject.stature_m > 2.2)
-    return std::nullopt;  // no published proportions
-  const Body body = Body::from_stature(motion.subject.stature_m, motion.subject.sex);
-  const BodyLinkage linkage(two_handed_linkage(), body);
-  const Holder holder(two_handed_linkage(), body, usual_mass_kg(motion.subject.stature_m));
-  const Vec3 half(0.5 * motion.grip_distance_m, 0.0, 0.0);
-  Postures postures;
-  for (int i = 0; i < kTimes; ++i) {
-    const double t = static_cast<double>(i) / (kTimes - 1);
-    const Vec3 hold = point_at(path, motion.home, motion.target, t);
-    Anchors anchors = anchors_of(body.posture());
-    anchors.grip = {hold - half, hold + half};
-    HoldReport report;
-    postures.push_back(holder.hold(linkage.decode(coordinates(t), anchors), anchors, {hold, 0.0}, report));
-    if (report.shortfall_m > 0.0) return std::nullopt;
+  explicit Selections(std::span<const Scheme> all) {
+    std::vector<Scheme> keys;
+    for (const Scheme& scheme : all) {
+      Scheme key = scheme;
+      key.k = 1;
+      key.sets = scheme.effective_sets();
+      key.smoother = Scheme{}.smoother;
+      key.bandwidth = Scheme{}.bandwidth;
+      key.ridge = Scheme{}.ridge;
+      const auto found = std::find(keys.begin(), keys.end(), key);
+      of.push_back(static_cast<std::size_t>(found - keys.begin()));
+      if (found == keys.end()) {
+        keys.push_back(key);
+        schemes.push_back(scheme);
+      }
+      schemes[of.back()].k = std::max(schemes[of.back()].k, scheme.k);
+    }
   }
-  return postures;
+};
+
+/// The sets of neighbours for both ends; where there is one set for all, the second is empty.
+using BothEnds = std::array<std::vector<std::uint32_t>, 2>;
+using BothShares = std::array<std::vector<Share>, 2>;
+
+bool is_same(const BothShares& a, const BothShares& b) {
+  const auto same = [](const Share& x, const Share& y) { return x.at == y.at && x.weight == y.weight; };
+  return std::equal(a[0].begin(), a[0].end(), b[0].begin(), b[0].end(), same) &&
+         std::equal(a[1].begin(), a[1].end(), b[1].begin(), b[1].end(), same);
 }
 
-double mean_distance(const Postures& a, const Postures& b) {
-  double sum = 0.0;
-  for (std::size_t f = 0; f < a.size(); ++f) {
-    for (std::size_t j = 0; j < kRecordedJointCount; ++j) sum += glm::distance(a[f][j], b[f][j]);
+BothEnds nearest_of(Search& search, const Scheme& selection, Sets sets) {
+  if (sets == Sets::one) return {search.nearest(selection, End::both), {}};
+  return {search.nearest(selection, End::home), search.nearest(selection, End::target)};
+}
+
+BothShares shares_of(Search& search, const Scheme& scheme, const BothEnds& nearest) {
+  const auto first = [&](const std::vector<std::uint32_t>& all) {
+    return std::span(all).first(std::min(all.size(), static_cast<std::size_t>(scheme.k)));
+  };
+  if (scheme.effective_sets() == Sets::one) return {search.shares(scheme, End::both, first(nearest[0])), {}};
+  return {search.shares(scheme, End::home, first(nearest[0])), search.shares(scheme, End::target, first(nearest[1]))};
+}
+
+/// Every scheme's prediction of one left-out motion.
+class Prediction {
+ public:
+  Prediction(const Recorded& recorded, std::uint32_t at, const Replay& replay, const ReplayPostures& truth)
+      : recorded_(recorded), query_(recorded.query(at)), replay_(replay), truth_(truth) {}
+
+  /// Error of a blend of these; blends that have been are not made again.
+  [[nodiscard]] double error_of(const BothShares& shares) {
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+      if (is_same(known_[i], shares)) return errors_[i];
+    }
+    const std::vector<WeightedCode> at_home = codes_of(shares[0]), at_target = codes_of(shares[1]);
+    blend_codes(at_home, at_target, query_, blend_);
+    known_.push_back(shares);
+    errors_.push_back(replay_.perform(blend_, guess_) ? mean_distance(truth_, guess_) : kFailed);
+    return errors_.back();
   }
-  return sum / static_cast<double>(a.size() * kRecordedJointCount);
+
+ private:
+  [[nodiscard]] std::vector<WeightedCode> codes_of(const std::vector<Share>& shares) const {
+    std::vector<WeightedCode> codes;
+    for (const Share& share : shares) codes.push_back({&recorded_.codes[share.at].code, share.weight});
+    return codes;
+  }
+
+  const Recorded& recorded_;
+  Query query_;
+  const Replay& replay_;
+  const ReplayPostures& truth_;
+  std::vector<BothShares> known_;
+  std::vector<double> errors_;
+  Blend blend_;
+  ReplayPostures guess_;
+};
+
+/// Errors by scheme; none where the motion itself cannot be performed.
+std::vector<double> errors_of(const Recorded& recorded, std::uint32_t at, std::span<const Scheme> schemes,
+                              const Selections& selections, LeaveOut leave_out) {
+  const MotionSummary& motion = recorded.motion(at);
+  Search search(
+      *recorded.table, recorded.query(at),
+      leave_out == LeaveOut::motion ? recorded.of_origin.at(motion.origin) : recorded.of_subject.at(motion.subject_id));
+  const std::optional<Replay> replay = Replay::of(motion);
+  ReplayPostures truth;
+  if (!replay || !replay->perform(recorded.codes[at].code, truth)) return {};
+  std::vector<BothEnds> nearest(selections.schemes.size());
+  Prediction prediction(recorded, at, *replay, truth);
+  std::vector<double> errors;
+  for (std::size_t s = 0; s < schemes.size(); ++s) {
+    BothEnds& found = nearest[selections.of[s]];
+    if (found[0].empty()) found = nearest_of(search, selections.schemes[selections.of[s]], schemes[s].effective_sets());
+    errors.push_back(prediction.error_of(shares_of(search, schemes[s], found)));
+  }
+  return errors;
 }
 
-double quantile(const std::vector<double>& sorted, double q) {
-  const double at = q * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(at);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+/// Errors of each left-out motion by scheme.
+using Errors = std::vector<std::vector<double>>;
+
+/// Motions that could not be performed are so under every scheme: all rows have the same groups.
+Groups groups_of(const Recorded& recorded, const Errors& errors, const CrossValidation& options) {
+  std::vector<std::int64_t> keys;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (errors[i].empty()) continue;
+    const MotionSummary& motion = recorded.motion(recorded.originals[i]);
+    keys.push_back(options.leave_out == LeaveOut::subject ? motion.subject_id : motion.id);
+  }
+  if (keys.empty()) {
+    throw std::invalid_argument("no transfer of the corpus can be held on a body of its subject's stature");
+  }
+  return {keys, options.seed};
 }
 
-bool is_left_out(const MotionSummary& motion, const MotionSummary& predicted, LeaveOut leave_out) {
-  return leave_out == LeaveOut::motion ? motion.origin == predicted.origin : motion.subject_id == predicted.subject_id;
+SchemeError row_of(const Scheme& scheme, std::size_t number, const Errors& errors, const Groups& groups,
+                   std::vector<double>& medians) {
+  std::vector<double> of_scheme;
+  for (const std::vector<double>& of_motion : errors) {
+    if (!of_motion.empty()) of_scheme.push_back(of_motion[number]);
+  }
+  return {.scheme = scheme,
+          .motions = of_scheme.size(),
+          .out_of_reach = errors.size() - of_scheme.size(),
+          .failed = static_cast<std::size_t>(std::count(of_scheme.begin(), of_scheme.end(), kFailed)),
+          .error = summary_of(of_scheme, groups, medians),
+          .behind_best_m = {}};
+}
+
+/// Two medians of failed predictions are alike.
+double difference(double a, double b) {
+  return a == b ? 0.0 : a - b;
+}
+
+/// `medians`: of each row's resamples.
+void compare_with_best(std::vector<SchemeError>& rows, const std::vector<std::vector<double>>& medians) {
+  const auto has_smaller_median = [](const SchemeError& a, const SchemeError& b) {
+    return a.error.median_m < b.error.median_m;
+  };
+  const auto best = std::min_element(rows.begin(), rows.end(), has_smaller_median);
+  best->is_best = true;
+  const std::vector<double>& least = medians[static_cast<std::size_t>(best - rows.begin())];
+  for (std::size_t s = 0; s < rows.size(); ++s) {
+    std::vector<double> behind;
+    for (std::size_t i = 0; i < least.size(); ++i) behind.push_back(difference(medians[s][i], least[i]));
+    rows[s].behind_best_m = percentile_interval(std::move(behind));
+  }
 }
 
 }  // namespace
 
-std::vector<SchemeError> cross_validate(const Corpus& corpus, std::span<const Scheme> schemes, LeaveOut leave_out) {
-  const std::shared_ptr<const MotionTable> table = corpus.table();
-  const PhaseColumns& transfers = table->of(Phase::transfer);
-  const CodeOf code_of = [&](std::int64_t id) { return corpus.code(id); };
-  std::vector<SchemeError> rows;
-  for (const Scheme& scheme : schemes) {
-    SchemeError row{.scheme = scheme};
-    std::vector<double> errors;
-    for (const std::uint32_t at : transfers.rows) {
-      const MotionSummary& motion = table->motions()[at];
-      if (motion.is_mirrored) continue;
-      const auto is_out = [&](const MotionSummary& other) { return is_left_out(other, motion, leave_out); };
-      const Blend blend =
-          blend_neighbours(*table, {Phase::transfer, motion.home, motion.target, motion.subject.stature_m},
-                           scheme.neighbours, code_of, is_out);
-      const std::shared_ptr<const MotionCode> own = code_of(motion.id);
-      const auto truth = perform(motion, path_of(*own), [&](double t) { return coordinates_at(*own, t); });
-      const auto guess = perform(motion, path_of(blend.whole), [&](double t) { return coordinates_at(blend, t); });
-      if (truth && guess) {
-        errors.push_back(mean_distance(*truth, *guess));
-      } else {
-        ++row.out_of_reach;
-      }
-    }
-    if (errors.empty())
-      throw std::invalid_argument("the corpus holds no transfer that can be predicted from the others");
-    std::sort(errors.begin(), errors.end());
-    row.motions = errors.size();
-    row.median_m = quantile(errors, 0.5);
-    row.lower_quartile_m = quantile(errors, 0.25);
-    row.upper_quartile_m = quantile(errors, 0.75);
-    rows.push_back(row);
-  }
+std::vector<SchemeError> cross_validate(const Corpus& corpus, std::span<const Scheme> schemes,
+                                        const CrossValidation& options) {
+  if (schemes.empty()) throw std::invalid_argument("schemes is empty; at least one is needed");
+  for (const Scheme& scheme : schemes) check(scheme);
+  const Recorded recorded(corpus);
+  const Selections selections(schemes);
+  Errors errors(recorded.originals.size());
+  for_each_number(errors.size(), options.threads, [&](std::size_t i) {
+    errors[i] = errors_of(recorded, recorded.originals[i], schemes, selections, options.leave_out);
+  });
+  const Groups groups = groups_of(recorded, errors, options);
+  std::vector<SchemeError> rows(schemes.size());
+  std::vector<std::vector<double>> medians(schemes.size());
+  for_each_number(rows.size(), options.threads,
+                  [&](std::size_t s) { rows[s] = row_of(schemes[s], s, errors, groups, medians[s]); });
+  compare_with_best(rows, medians);
   return rows;
 }
 

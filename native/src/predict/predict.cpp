@@ -64,9 +64,10 @@ std::vector<std::string> why_outside(const PhaseColumns& recorded, const Query& 
   };
   if (target > kFarFromData_m) add("the nearest recorded target is ", target, " m away");
   if (home > kFarFromData_m) add("the nearest recorded home is ", home, " m away");
-  const double shortest = recorded.sorted_stature_m.front(), tallest = recorded.sorted_stature_m.back();
-  if (query.stature_m < shortest - kStatureMargin_m || query.stature_m > tallest + kStatureMargin_m) {
-    add("stature ", query.stature_m, " m lies outside the recorded ", shortest, " to ", tallest, " m");
+  const std::vector<double>& statures = recorded.all.by(Trait::stature);
+  const double shortest = statures.front(), tallest = statures.back();
+  if (query.subject.stature_m < shortest - kStatureMargin_m || query.subject.stature_m > tallest + kStatureMargin_m) {
+    add("stature ", query.subject.stature_m, " m lies outside the recorded ", shortest, " to ", tallest, " m");
   }
   return reasons;
 }
@@ -170,11 +171,17 @@ void check_places(const Task& task, const Subject& subject, std::span<const Phas
   }
 }
 
+std::optional<double> given_seconds(Phase phase, const PredictOptions& options) {
+  const auto given = options.durations_s.find(phase);
+  return given == options.durations_s.end() ? std::nullopt : std::optional(given->second);
+}
+
 /// The neighbours of one phase, averaged; what is outside the data is added to the motion.
 Blend blend_for(const Corpus& corpus, const MotionTable& table, const Stage& stage, const HandEnds& hands,
                 const Subject& subject, const PredictOptions& options, Motion& motion) {
-  const Query query{stage.phase, hold_point(hands.first), hold_point(hands.last), subject.stature_m};
-  Blend blend = blend_neighbours(table, query, options.neighbours, [&](std::int64_t id) { return corpus.code(id); });
+  const Query query{stage.phase, hold_point(hands.first), hold_point(hands.last), subject,
+                    given_seconds(stage.phase, options)};
+  Blend blend = blend_neighbours(table, query, options.scheme, [&](std::int64_t id) { return corpus.code(id); });
   for (const std::string& reason : why_outside(table.of(query.phase), query)) {
     const std::string said = options.phases.size() > 1 ? std::string(phase_name(stage.phase)) + ": " + reason : reason;
     if (std::find(motion.outside_data.begin(), motion.outside_data.end(), said) == motion.outside_data.end())
@@ -188,8 +195,7 @@ Blend blend_for(const Corpus& corpus, const MotionTable& table, const Stage& sta
 }
 
 double seconds_of(Phase phase, const Blend& blend, const PredictOptions& options) {
-  const auto given = options.durations_s.find(phase);
-  return given == options.durations_s.end() ? blend.whole.duration_s : given->second;
+  return given_seconds(phase, options).value_or(blend.whole.duration_s);
 }
 
 /// Raising the path over an edge is a courtesy: a path that can only be held as it was learned stays as it was.

@@ -69,7 +69,7 @@ inline Task task(const Vec3& home, const Vec3& target) {
 
 inline PredictOptions options(double frame_rate, int k = 5, std::map<Phase, double> durations_s = {}) {
   return {
-      .frame_rate = frame_rate, .neighbours = k, .phases = {Phase::transfer}, .durations_s = std::move(durations_s)};
+      .frame_rate = frame_rate, .scheme = {.k = k}, .phases = {Phase::transfer}, .durations_s = std::move(durations_s)};
 }
 
 /// Links, and the sides of the rigid triangles of pelvis and chest.

@@ -14,17 +14,32 @@ namespace reachcast {
 /// What the neighbours do where the motion begins and where it ends. The posture passes from the one to the other.
 struct Blend {
   MotionCode from, to;                ///< means over the neighbours of the home and of the target
-  MotionCode whole;                   ///< mean over all of them: path of the hold point and duration
+  MotionCode whole;                   ///< half of each: path of the hold point and duration
   std::vector<Neighbour> neighbours;  ///< both sets; a motion of both has the mean of its two weights; heaviest first
 };
 
 /// Finds a motion's code by its id.
 using CodeOf = std::function<std::shared_ptr<const MotionCode>(std::int64_t)>;
 
-/// Paths are carried onto the wanted axis before they are averaged. Throws std::invalid_argument for k < 1, no motion
-/// of the phase, or codes of another length than this version's.
-[[nodiscard]] Blend blend_neighbours(const MotionTable& table, const Query& query, int k, const CodeOf& code_of,
-                                     const LeftOut& left_out = {});
+/// Paths are carried onto the wanted axis before they are averaged. The duration stays within the neighbours' own,
+/// which negative weights could leave. Throws std::invalid_argument as Search does, and for codes of another length
+/// than this version's.
+[[nodiscard]] Blend blend_neighbours(const MotionTable& table, const Query& query, const Scheme& scheme,
+                                     const CodeOf& code_of, const LeftOut& left_out = {});
+
+/// A code and its share of a mean.
+struct WeightedCode {
+  const MotionCode* code = nullptr;
+  double weight = 0.0;
+};
+
+/// from, to and whole of a blend, the same for both ends where `at_target` is empty. Memory of `blend` is used again;
+/// its neighbours are not touched.
+void blend_codes(std::span<const WeightedCode> at_home, std::span<const WeightedCode> at_target, const Query& query,
+                 Blend& blend);
+
+/// How much of the posture at scaled time t is that of `to`; the rest is that of `from`.
+[[nodiscard]] double share_of_target(double t);
 
 /// Posture coordinates at scaled time t in [0, 1].
 [[nodiscard]] Eigen::VectorXd coordinates_at(const Blend& blend, double t);

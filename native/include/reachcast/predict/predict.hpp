@@ -17,7 +17,7 @@ namespace reachcast {
 
 struct PredictOptions {
   double frame_rate = 24.0;  ///< frames per second of the result, 1 to 1000
-  int neighbours = 5;        ///< k of the mean, >= 1
+  Scheme scheme{};           ///< which motions are averaged, and how; one that compares durations needs durations_s
   /// In this order. The object stands where the first loaded phase takes it from, at the target when none is loaded.
   std::vector<Phase> phases{Phase::transfer};
   std::map<Phase, double> durations_s{};  ///< of a phase's own motion, 0.1 to 60; else the neighbours' mean

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reachcast/predict/replay.hpp"
+
+#include "reachcast/curves/bspline.hpp"
+#include "reachcast/motion/encode.hpp"
+
+namespace reachcast {
+namespace {
+
+constexpr double kShortest_m = 1.2, kTallest_m = 2.2;  // with published proportions
+
+using Rows = Eigen::Matrix<double, kBasisCount, kReplayTimes>;
+
+double time_of(int i) {
+  return static_cast<double>(i) / (kReplayTimes - 1);
+}
+
+/// The splines at the times of a replay, and what of them the two ends of a blend have a share in.
+struct Basis {
+  Rows whole, from, to;
+  Basis() {
+    for (int i = 0; i < kReplayTimes; ++i) {
+      const double share = share_of_target(time_of(i));
+      whole.col(i) = bspline_row(time_of(i)).transpose();
+      from.col(i) = (1.0 - share) * whole.col(i);
+      to.col(i) = share * whole.col(i);
+    }
+  }
+};
+
+const Basis& basis() {
+  static const Basis made;
+  return made;
+}
+
+/// One column of spline coefficients for each posture coordinate; they are the tail of a code.
+Eigen::Map<const Eigen::MatrixXd> curves_of(const MotionCode& code) {
+  const Eigen::Index count = posture_coordinate_count(two_handed_linkage());
+  return {code.coefficients.data() + code.coefficients.size() - kBasisCount * count, kBasisCount, count};
+}
+
+}  // namespace
+
+std::optional<Replay> Replay::of(const MotionSummary& motion) {
+  if (!(motion.subject.stature_m >= kShortest_m && motion.subject.stature_m <= kTallest_m)) return std::nullopt;
+  return Replay(motion);
+}
+
+Replay::Replay(const MotionSummary& motion)
+    : home_(motion.home),
+      target_(motion.target),
+      half_grip_(0.5 * motion.grip_distance_m, 0.0, 0.0),
+      anchors_(anchors_of(Body::from_stature(motion.subject.stature_m, motion.subject.sex).posture())),
+      linkage_(two_handed_linkage(), Body::from_stature(motion.subject.stature_m, motion.subject.sex)),
+      holder_(two_handed_linkage(), Body::from_stature(motion.subject.stature_m, motion.subject.sex),
+              usual_mass_kg(motion.subject.stature_m)) {}
+
+bool Replay::perform(const MotionCode& code, ReplayPostures& postures) const {
+  const Coordinates coordinates = curves_of(code).transpose().lazyProduct(basis().whole);
+  return perform(path_of(code), coordinates, postures);
+}
+
+bool Replay::perform(const Blend& blend, ReplayPostures& postures) const {
+  Coordinates coordinates = curves_of(blend.from).transpose().lazyProduct(basis().from);
+  coordinates += curves_of(blend.to).transpose().lazyProduct(basis().to);
+  return perform(path_of(blend.whole), coordinates, postures);
+}
+
+bool Replay::perform(const EndpointPath& path, const Coordinates& coordinates, ReplayPostures& postures) const {
+  Anchors anchors = anchors_;
+  for (int i = 0; i < kReplayTimes; ++i) {
+    const Vec3 hold = point_at(path, home_, target_, time_of(i));
+    anchors.grip = {hold - half_grip_, hold + half_grip_};
+    HoldReport report;
+    postures[static_cast<std::size_t>(i)] =
+        holder_.hold(linkage_.decode(coordinates.col(i), anchors), anchors, {hold, 0.0}, report);
+    if (report.shortfall_m > 0.0) return false;
+  }
+  return true;
+}
+
+double mean_distance(const ReplayPostures& a, const ReplayPostures& b) {
+  double sum = 0.0;
+  for (std::size_t f = 0; f < a.size(); ++f) {
+    double at_time = 0.0;
+    for (std::size_t j = 0; j < kRecordedJointCount; ++j) at_time += glm::distance(a[f][j], b[f][j]);
+    sum += f == 0 || f + 1 == a.size() ? 0.5 * at_time : at_time;
+  }
+  return sum / static_cast<double>((a.size() - 1) * kRecordedJointCount);
+}
+
+}  // namespace reachcast
