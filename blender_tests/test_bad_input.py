@@ -171,6 +171,10 @@ class Places(Bad):
         self.refused("age", age=math.nan)
         self.refused("sex", sex="neither", age=None)
         self.refused("k is 0", k=0)
+        self.refused("age must be a number", "'old'", age="old")
+        self.refused("wrong kind", "k='many'", k="many")
+        self.refused("unknown option 'wings'", wings=2)
+        self.refused("phase", "'fly'", phases=["fly"])
 
 
 def setting(which: str, name: str, value: object) -> Callable[[LiftScene], None]:

@@ -136,6 +136,9 @@ def _corpus(core: ModuleType, corpus: object) -> object:
 
 def _subject(core: ModuleType, skeleton: Skeleton, stature: float | None, sex: str | None, age: float | None,
              mass: float | None) -> object:
+    for name, value in (("stature", stature), ("age", age), ("mass", mass)):
+        if value is not None and not isinstance(value, (int, float)):
+            raise ValueError(f"The person's {name} must be a number, not {value!r}")
     return core.Subject(skeleton.height if not stature else float(stature), sex=sex, age=age, mass=mass)
 
 
@@ -153,6 +156,9 @@ def _predict(core: ModuleType, skeleton: Skeleton, lift: Lift, corpus: object, s
         return core.predict(_corpus(core, corpus), subject, task, body, **options)
     except RuntimeError as error:  # what the native module says of a damaged or busy file, in one sentence
         raise ValueError(str(error)) from error
+    except TypeError as error:
+        given = ", ".join(f"{name}={value!r}" for name, value in options.items() if name != "obstacles")
+        raise ValueError(f"One of these options has a value of the wrong kind: {given}") from error
 
 
 def _errors(skeleton: Skeleton, lift: Lift, motion: Any, pose: Any, joints: Array,
