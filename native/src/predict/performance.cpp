@@ -76,14 +76,6 @@ void Performance::find_openings() {
   }
 }
 
-void Performance::raise_over_edges() {
-  for (Act& act : acts_) {
-    if (!is_loaded(act.stage->phase)) continue;
-    const auto place_at = [&](double t) { return point_at(act.path, act.from.position, act.to.position, t); };
-    act.clearance = EdgeClearance(place_at, task_.object);
-  }
-}
-
 Performance::Act Performance::act_of(const Stage& stage, const Blend& blend) const {
   Act act{.stage = &stage,
           .blend = &blend,
@@ -144,12 +136,6 @@ double Performance::opening_of(const Act& act) const {
     if (report.shortfall_m > 0.0) return 0.0;
   }
   return kOpening_m;
-}
-
-double Performance::raised_m() const {
-  double most = 0.0;
-  for (const Act& act : acts_) most = std::max(most, act.clearance.largest_m());
-  return most;
 }
 
 const Performance::Act& Performance::hands_act(double moment) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The part of a performance that minds obstacles.
+/// The part of a performance that minds edges and obstacles.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -17,6 +17,20 @@ constexpr double kNear_m = 0.10;    // of its place, where the clearance shrinks
 constexpr double kHand_m = 0.09;    // a closed hand
 
 }  // namespace
+
+void Performance::raise_over_edges() {
+  for (Act& act : acts_) {
+    if (!is_loaded(act.stage->phase)) continue;
+    const auto place_at = [&](double t) { return point_at(act.path, act.from.position, act.to.position, t); };
+    act.clearance = EdgeClearance(place_at, task_.object);
+  }
+}
+
+double Performance::raised_m() const {
+  double most = 0.0;
+  for (const Act& act : acts_) most = std::max(most, act.clearance.largest_m());
+  return most;
+}
 
 std::vector<std::size_t> Performance::go_round(const Obstacles& obstacles, double clearance_m,
                                                const std::vector<std::size_t>& first_shapes) {
