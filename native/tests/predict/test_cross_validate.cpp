@@ -146,6 +146,25 @@ TEST(CrossValidate, ATwinOfEveryMotionLeavesNoError) {
   EXPECT_THROW((void)cross_validate(corpus, std::vector<Scheme>{{.k = 0}}), std::invalid_argument);
 }
 
+/// A path that swings out by metres can be held by nobody: neither as the motion itself nor as a prediction.
+TEST(CrossValidate, APredictionThatCannotBeHeldIsInfinitelyWrong) {
+  const TemporaryFolder folder;
+  Corpus corpus = Corpus::create(folder / "swing.sqlite");
+  MotionCode swing = encode_reach(made_lift(1.72, {0.0, 0.42, 0.2}, {0.1, 0.45, 1.2}));
+  EndpointPath path = path_of(swing);
+  path.deviation.col(0).setConstant(5.0);
+  set_path(swing, path);
+  swing.origin = "swing";
+  corpus.add(std::vector{encode_reach(made_lift(1.72, {0.0, 0.42, 0.2}, {0.1, 0.45, 1.1})), swing});
+  const SchemeError row = cross_validate(corpus, std::vector<Scheme>{{.k = 1}}).front();
+  EXPECT_EQ(row.motions, 1u);
+  EXPECT_EQ(row.out_of_reach, 1u);
+  EXPECT_EQ(row.failed, 1u);
+  EXPECT_TRUE(std::isinf(row.error.median_m));
+  EXPECT_EQ(row.behind_best_m.high, 0.0);
+  EXPECT_EQ(natural_variation(corpus, 0.2).out_of_reach, 1u);
+}
+
 TEST(NaturalVariation, OfTwinsIsNone) {
   const TemporaryFolder folder;
   Corpus corpus = Corpus::create(folder / "twins.sqlite");

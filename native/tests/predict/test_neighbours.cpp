@@ -74,13 +74,10 @@ double squared_task(const MotionSummary& m, const Query& q, End end) {
          (end == End::home ? other : 1.0) * glm::dot(target, target);
 }
 
-std::optional<double> number(const std::optional<Sex>& sex) {
-  return sex ? std::optional(*sex == Sex::male ? 1.0 : 0.0) : std::nullopt;
-}
-
 /// By Trait.
 std::array<std::optional<double>, kTraitCount> traits(const Subject& s, const std::optional<double>& duration_s) {
-  return {s.stature_m, s.age_years, number(s.sex), s.mass_kg, duration_s};
+  const auto sex = s.sex ? std::optional(*s.sex == Sex::male ? 1.0 : 0.0) : std::nullopt;
+  return {s.stature_m, s.age_years, sex, s.mass_kg, duration_s};
 }
 
 /// Rank sum or scaled distance by the definitions in scheme.hpp, by counting: a rank is the number of those nearer.
