@@ -33,10 +33,7 @@ void encode_chain(const ChainSpec& spec, const Posture& posture, double* out) {
 }
 
 std::size_t coordinates_of(const ChainSpec& spec) {
-  const std::vector<double> ones(spec.joints.size() - 1, 1.0);
-  std::vector<std::size_t> pivots;
-  for (const Joint joint : spec.pivots) pivots.push_back(position_in(spec, joint));
-  return Chain(ones, pivots).coordinate_count();
+  return Chain::coordinate_count(spec.joints.size() - 1);
 }
 
 /// Primary chain and parts; returns where the next coordinates go.

@@ -63,6 +63,7 @@ TEST(Chain, DecodeInvertsEncodeOnRandomChains) {
     const Case c = random_case(random, 2 + trial % 11);
     const Chain chain(c.lengths, c.pivots);
     std::vector<double> coordinates(chain.coordinate_count());
+    ASSERT_EQ(coordinates.size(), Chain::coordinate_count(chain.links())) << "trial " << trial;
     chain.encode(c.points, coordinates);
     Points back(c.points.size());
     chain.decode(c.points.front(), c.points.back(), coordinates, back);

@@ -50,6 +50,10 @@ class Chain {
 
   [[nodiscard]] std::size_t links() const { return lengths_.size(); }
   [[nodiscard]] std::size_t coordinate_count() const { return coordinate_count_; }
+  /// Of any chain with so many links, whatever its pivots: each pivot but the first is one stretch of another one.
+  [[nodiscard]] static constexpr std::size_t coordinate_count(std::size_t links) {
+    return links < 2 ? 0 : 3 * (links - 1) + (links - 2);
+  }
   [[nodiscard]] Interval reach() const { return root_reach_; }
   [[nodiscard]] const std::vector<double>& lengths() const { return lengths_; }
 
