@@ -88,7 +88,7 @@ void bind_posture(py::module_& m) {
            "(least, "
            "most flexion in radians)} for joints that pivot between two single links.")
       .def_property_readonly("lengths", [](const Chain& c) { return numbers_array(c.lengths()); })
-      .def_property_readonly("coordinate_count", &Chain::coordinate_count)
+      .def_property_readonly("coordinate_count", [](const Chain& c) { return c.coordinate_count(); })
       .def_property_readonly(
           "reach", [](const Chain& c) { return std::pair(c.reach().lo, c.reach().hi); },
           "(lo, hi): the distances that the two ends can have, metres")
