@@ -18,14 +18,6 @@ using namespace reachcast::bindings;
 
 namespace {
 
-Box make_box(double width, double depth, double height, std::optional<double> handle_height, double mass,
-             std::optional<double> grip_distance) {
-  // Without a wish, hands hold at half the height, their centres 2 cm outside the walls.
-  const Box box{width, depth, height, handle_height.value_or(0.5 * height), grip_distance.value_or(width + 0.04), mass};
-  check(Task{.home = {}, .target = {}, .object = box});
-  return box;
-}
-
 py::array_t<double> positions(const Motion& motion) {
   const auto frames = static_cast<py::ssize_t>(motion.postures.size());
   py::array_t<double> out({frames, static_cast<py::ssize_t>(kJointCount), py::ssize_t{3}});
@@ -114,14 +106,62 @@ std::map<Phase, double> to_durations(const std::variant<std::monostate, double, 
   return durations;
 }
 
+Vec3 row(const DoubleArray& points, py::ssize_t i) {
+  return {points.at(i, 0), points.at(i, 1), points.at(i, 2)};
+}
+
+std::map<std::size_t, InnerPoints> to_hand_paths(const std::map<long, DoubleArray>& given) {
+  std::map<std::size_t, InnerPoints> paths;
+  for (const auto& [number, points] : given) {
+    if (number < 0) {
+      throw std::invalid_argument("a hand path is given for phase number " + std::to_string(number) +
+                                  "; they are counted from 0");
+    }
+    require_shape(points, "hand_paths", {2, 3});
+    paths[static_cast<std::size_t>(number)] = {row(points, 0), row(points, 1)};
+  }
+  return paths;
+}
+
+std::optional<Approach> to_approach(const std::optional<std::string>& name) {
+  if (!name) return std::nullopt;
+  if (*name == "above") return Approach::above;
+  if (*name == "front") return Approach::front;
+  if (*name == "side") return Approach::side;
+  throw std::invalid_argument("approach is '" + *name + "'; it must be above, front or side");
+}
+
+std::optional<Variation> to_variation(const std::optional<std::map<std::string, double>>& given) {
+  if (!given) return std::nullopt;
+  Variation variation;
+  for (const auto& [key, value] : *given) {
+    if (key == "amount") {
+      variation.amount = value;
+    } else if (key == "seed") {
+      constexpr double kMost = 9007199254740992.0;  // whole numbers up to here are exact in a double
+      if (!(value >= 0.0 && value < kMost && value == std::floor(value)))
+        throw std::invalid_argument("variation: seed is " + std::to_string(value) +
+                                    "; it must be a whole number from 0");
+      variation.seed = static_cast<std::uint64_t>(value);
+    } else {
+      throw std::invalid_argument("variation: '" + key + "' is not one of seed, amount");
+    }
+  }
+  return variation;
+}
+
 Motion predict_motion(const Corpus& corpus, const Subject& subject, const Task& task, const std::optional<Body>& body,
                       double frame_rate, std::optional<int> k, const std::vector<std::string>& phases,
                       const std::variant<std::monostate, double, std::map<std::string, double>>& duration,
                       const std::optional<DoubleArray>& obstacles, double clearance, const py::object& given_scheme,
-                      const py::kwargs& unknown) {
-  refuse_unknown(unknown, "predict", "body, frame_rate, k, phases, duration, obstacles, clearance, scheme");
+                      const std::map<long, DoubleArray>& hand_paths, const std::optional<std::string>& approach,
+                      const std::optional<std::map<std::string, double>>& variation, const py::kwargs& unknown) {
+  refuse_unknown(
+      unknown, "predict",
+      "body, frame_rate, k, phases, duration, obstacles, clearance, scheme, hand_paths, approach, variation");
   const Scheme scheme = to_scheme(k, given_scheme);
   const std::shared_ptr<const Obstacles> surfaces = to_obstacles(obstacles);
+  const std::map<std::size_t, InnerPoints> paths = to_hand_paths(hand_paths);
   const py::gil_scoped_release without_gil;
   const Body mover = body ? *body : Body::from_stature(subject.stature_m, subject.sex);
   const std::vector<Phase> order = to_phases(phases);
@@ -131,51 +171,10 @@ Motion predict_motion(const Corpus& corpus, const Subject& subject, const Task& 
                   .phases = order,
                   .durations_s = to_durations(duration, order),
                   .obstacles = surfaces,
-                  .clearance_m = clearance});
-}
-
-void bind_task(py::module_& m) {
-  py::class_<Box>(m, "Box",
-                  "A box: origin at the centre of its base, handles on its sides along its x. Metres, kilograms.")
-      .def(py::init(&make_box), py::arg("width") = 0.36, py::arg("depth") = 0.28, py::arg("height") = 0.24,
-           py::arg("handle_height") = py::none(), py::arg("mass") = 5.0, py::arg("grip_distance") = py::none(),
-           "handle_height defaults to half the height, grip_distance (between the centres of the grips) to the width + "
-           "0.04.")
-      .def_readonly("width", &Box::width_m)
-      .def_readonly("depth", &Box::depth_m)
-      .def_readonly("height", &Box::height_m)
-      .def_readonly("handle_height", &Box::handle_height_m)
-      .def_readonly("grip_distance", &Box::grip_distance_m)
-      .def_readonly("mass", &Box::mass_kg)
-      .def("__repr__", [](const Box& b) {
-        std::ostringstream out;
-        out << "Box(width=" << b.width_m << ", depth=" << b.depth_m << ", height=" << b.height_m
-            << ", mass=" << b.mass_kg << ")";
-        return out.str();
-      });
-
-  py::class_<Task>(m, "Task", "A box goes from home to target, held by both hands.")
-      .def(py::init([](const DoubleArray& home, const DoubleArray& target, const Box& object, double home_yaw,
-                       double target_yaw) {
-             const Task task{to_vec3(home, "home"), to_vec3(target, "target"), home_yaw, target_yaw, object};
-             check(task);
-             return task;
-           }),
-           py::arg("home"), py::arg("target"), py::arg("object") = Box{}, py::arg("home_yaw") = 0.0,
-           py::arg("target_yaw") = 0.0,
-           "home, target: (3,), origin of the box at the start and the end, body frame; yaws in radians about the "
-           "vertical.")
-      .def_property_readonly("home", [](const Task& t) { return vec3_array(t.home); })
-      .def_property_readonly("target", [](const Task& t) { return vec3_array(t.target); })
-      .def_readonly("home_yaw", &Task::home_yaw_rad)
-      .def_readonly("target_yaw", &Task::target_yaw_rad)
-      .def_readonly("object", &Task::object)
-      .def("__repr__", [](const Task& t) {
-        std::ostringstream out;
-        out << "Task(home=(" << t.home.x << ", " << t.home.y << ", " << t.home.z << "), target=(" << t.target.x << ", "
-            << t.target.y << ", " << t.target.z << "))";
-        return out.str();
-      });
+                  .clearance_m = clearance,
+                  .hand_paths = paths,
+                  .approach = to_approach(approach),
+                  .variation = to_variation(variation)});
 }
 
 void bind_results(py::module_& m) {
@@ -236,6 +235,15 @@ void bind_results(py::module_& m) {
             return out;
           },
           "list of (phase, first frame, last frame): while the hands move")
+      .def_property_readonly(
+          "ways",
+          [](const Motion& motion) {
+            std::vector<std::string> out;
+            for (const WayForm form : motion.ways) out.emplace_back(form_name(form));
+            return out;
+          },
+          "list, one per phase: what the path of the hands comes from: 'deviation' or 'bezier' (learned, in either "
+          "form), 'published' (no such phase was recorded), 'given'")
       .def_property_readonly("neighbours", &neighbours, "list of Neighbour, phase by phase, heaviest first")
       .def_property_readonly("outside_data", [](const Motion& motion) { return !motion.outside_data.empty(); })
       .def_readonly("outside_reasons", &Motion::outside_data)
@@ -249,13 +257,14 @@ void bind_results(py::module_& m) {
 }  // namespace
 
 void bind_predict(py::module_& m) {
-  bind_task(m);
   bind_results(m);
   m.def(
       "predict", &predict_motion, py::arg("corpus"), py::arg("subject"), py::arg("task"), py::arg("body") = py::none(),
       py::kw_only(), py::arg("frame_rate") = 24.0, py::arg("k") = py::none(),
       py::arg("phases") = std::vector<std::string>{"transfer"}, py::arg("duration") = py::none(),
       py::arg("obstacles") = py::none(), py::arg("clearance") = 0.02, py::arg("scheme") = py::none(),
+      py::arg("hand_paths") = std::map<long, DoubleArray>{}, py::arg("approach") = py::none(),
+      py::arg("variation") = py::none(),
       "Corpus, Subject, Task, Body -> Motion. Without a body, published proportions of the subject. k: neighbours in "
       "the mean, 5 unless the scheme says otherwise; scheme: which motions are averaged and how, a dict as "
       "cross_validate takes it. phases: any of 'reach' (empty hands from the sides to the object), 'transfer' (home to "
@@ -263,5 +272,11 @@ void bind_predict(py::module_& m) {
       "object stands "
       "where the first loaded phase takes it from, at the target when there is none. duration: seconds of each phase, "
       "or a dict from phase to seconds; else the neighbours' mean. obstacles: (triangles, 3, 3) corners, body frame, "
-      "that the box and the hands keep `clearance` metres away from; arms and body are not looked at.");
+      "that the box and the hands keep `clearance` metres away from; arms and body are not looked at. hand_paths: "
+      "{number "
+      "of the phase, from 0: (2, 3) inner control points of the Bezier curve that the middle between the hands "
+      "follows, "
+      "body frame}. approach: 'above', 'front' or 'side', from where the hands come to the target. variation: {'seed': "
+      "whole number, 'amount': 0 to 2, 1 by default}: a motion drawn with the recorded people's covariance instead of "
+      "their mean, the same one for the same seed.");
 }

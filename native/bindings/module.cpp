@@ -16,6 +16,7 @@ PYBIND11_MODULE(reachcast_core, m) {
   bind_variation(m);
   bind_mocap(m);
   bind_corpus(m);
+  bind_task(m);
   bind_predict(m);
   bind_cross_validate(m);
   bind_rig(m);

@@ -11,6 +11,7 @@ void bind_hand_path(pybind11::module_& m);
 void bind_variation(pybind11::module_& m);
 void bind_mocap(pybind11::module_& m);
 void bind_corpus(pybind11::module_& m);
+void bind_task(pybind11::module_& m);
 void bind_predict(pybind11::module_& m);
 void bind_cross_validate(pybind11::module_& m);
 void bind_rig(pybind11::module_& m);

@@ -14,7 +14,7 @@ namespace py = pybind11;
 namespace reachcast::bindings {
 namespace {
 
-constexpr const char* kKeys = "k, ranks or distances, weights, mirrored, sets, smoother, bandwidth, ridge";
+constexpr const char* kKeys = "k, ranks or distances, weights, mirrored, sets, paths, smoother, bandwidth, ridge";
 
 [[noreturn]] void refuse(const std::string& key, const py::handle& value, const std::string& limit) {
   throw std::invalid_argument("scheme: " + key + " is " + py::repr(value).cast<std::string>() + "; it must be " +
@@ -95,6 +95,8 @@ void set(Scheme& scheme, const std::string& key, const py::handle& value) {
   } else if (key == "sets") {
     if (!is_number(value) || (value.cast<double>() != 1.0 && value.cast<double>() != 2.0)) refuse(key, value, "1 or 2");
     scheme.sets = value.cast<double>() == 1.0 ? Sets::one : Sets::two;
+  } else if (key == "paths") {
+    scheme.paths = to_choice(key, value, {"deviation", "bezier"}) == 0 ? PathForm::deviation : PathForm::bezier;
   } else if (key == "smoother") {
     const std::size_t choice = to_choice(key, value, {"mean", "kernel", "linear"});
     if (choice != 0) scheme.smoother = choice == 1 ? Smoother::kernel : Smoother::linear;
@@ -168,6 +170,7 @@ py::dict scheme_dict(const Scheme& scheme) {
   if (scheme.smoother == Smoother::linear) out["ridge"] = scheme.ridge;
   out["mirrored"] = scheme.mirrored;
   out["sets"] = scheme.effective_sets() == Sets::one ? 1 : 2;
+  out["paths"] = scheme.paths == PathForm::deviation ? "deviation" : "bezier";
   return out;
 }
 

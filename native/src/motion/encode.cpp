@@ -10,11 +10,13 @@
 namespace reachcast {
 namespace {
 
-// Layout of MotionCode::coefficients: velocity (6), deviation x, y, z (6 each), separation x, y, z (8 each), then
-// posture coordinates, 8 coefficients each, coordinate by coordinate.
+// Layout of MotionCode::coefficients: velocity (6), deviation x, y, z (6 each), Bezier offsets (3 each) and exponents
+// (2), separation x, y, z (8 each), then posture coordinates, 8 coefficients each, coordinate by coordinate.
 constexpr Eigen::Index kPathLength = 4 * kPathBasisCount;
+constexpr Eigen::Index kCurveLength = 8;
+constexpr Eigen::Index kSeparationStart = kPathLength + kCurveLength;
 constexpr Eigen::Index kSeparationLength = 3 * kBasisCount;
-constexpr Eigen::Index kPostureStart = kPathLength + kSeparationLength;
+constexpr Eigen::Index kPostureStart = kSeparationStart + kSeparationLength;
 
 Vec3 separation(const Posture& posture) {
   const Anchors anchors = anchors_of(posture);
@@ -68,10 +70,11 @@ MotionCode encode_reach(const Reach& reach) {
   }
   try {
     set_path(code, fit_endpoint_path(holds));
+    set_curve(code, fit_axis_curve(holds));
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(reach.origin + ": hold point: " + error.what());
   }
-  code.coefficients.segment<kSeparationLength>(kPathLength) = solve_smooth(resting_basis, separations).reshaped();
+  code.coefficients.segment<kSeparationLength>(kSeparationStart) = solve_smooth(resting_basis, separations).reshaped();
   code.coefficients.tail(code_length() - kPostureStart) = fit_bspline(coordinates).reshaped();
   return code;
 }
@@ -88,9 +91,45 @@ void set_path(MotionCode& code, const EndpointPath& path) {
   code.coefficients.segment<3 * kPathBasisCount>(kPathBasisCount) = path.deviation.reshaped();
 }
 
+AxisCurve curve_of(const MotionCode& code) {
+  const double* next = code.coefficients.data() + kPathLength;
+  AxisCurve curve;
+  for (Vec3& offset : curve.offsets) {
+    for (int k = 0; k < 3; ++k) offset[k] = *next++;
+  }
+  curve.speed = {next[0], next[1]};
+  return curve;
+}
+
+void set_curve(MotionCode& code, const AxisCurve& curve) {
+  double* next = code.coefficients.data() + kPathLength;
+  for (const Vec3& offset : curve.offsets) {
+    for (int k = 0; k < 3; ++k) *next++ = offset[k];
+  }
+  next[0] = curve.speed.alpha;
+  next[1] = curve.speed.beta;
+}
+
+MotionCode reversed(const MotionCode& code) {
+  MotionCode back = code;
+  back.phase = opposite(code.phase);
+  back.origin += kBackwards;
+  std::swap(back.home, back.target);
+  const AxisCurve curve = curve_of(code);
+  const auto turn_round = [&](Eigen::Index start, Eigen::Index length, Eigen::Index count) {
+    for (Eigen::Index i = 0; i < count; ++i, start += length) {
+      back.coefficients.segment(start, length) = code.coefficients.segment(start, length).reverse();
+    }
+  };
+  turn_round(0, kPathBasisCount, 4);
+  set_curve(back, {{curve.offsets[1], curve.offsets[0]}, {curve.speed.beta, curve.speed.alpha}});
+  turn_round(kSeparationStart, kBasisCount, (code.coefficients.size() - kSeparationStart) / kBasisCount);
+  return back;
+}
+
 Vec3 separation_at(const MotionCode& code, double t) {
   const LocalBasis local = bspline_local(resting_time(t));
-  const double* curves = code.coefficients.data() + kPathLength + local.first;
+  const double* curves = code.coefficients.data() + kSeparationStart + local.first;
   Vec3 out(0.0);
   for (int k = 0; k < 3; ++k) {
     for (std::size_t i = 0; i < local.values.size(); ++i)

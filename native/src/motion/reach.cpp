@@ -18,6 +18,20 @@ bool is_loaded(Phase phase) {
   return phase == Phase::transfer || phase == Phase::retrieve;
 }
 
+Phase opposite(Phase phase) {
+  switch (phase) {
+    case Phase::transfer:
+      return Phase::retrieve;
+    case Phase::retrieve:
+      return Phase::transfer;
+    case Phase::reach:
+      return Phase::return_;
+    case Phase::return_:
+      return Phase::reach;
+  }
+  return phase;
+}
+
 std::string_view phase_name(Phase phase) {
   const auto found =
       std::find_if(kPhaseNames.begin(), kPhaseNames.end(), [&](const auto& p) { return p.first == phase; });
@@ -47,21 +61,8 @@ Reach mirrored(const Reach& reach) {
 
 Reach reversed(const Reach& reach) {
   Reach back = reach;
-  switch (reach.phase) {
-    case Phase::transfer:
-      back.phase = Phase::retrieve;
-      break;
-    case Phase::retrieve:
-      back.phase = Phase::transfer;
-      break;
-    case Phase::reach:
-      back.phase = Phase::return_;
-      break;
-    case Phase::return_:
-      back.phase = Phase::reach;
-      break;
-  }
-  back.origin += " (backwards)";
+  back.phase = opposite(reach.phase);
+  back.origin += kBackwards;
   std::reverse(back.postures.begin(), back.postures.end());
   return back;
 }

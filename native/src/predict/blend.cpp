@@ -2,8 +2,11 @@
 #include "reachcast/predict/blend.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "reachcast/motion/encode.hpp"
 
@@ -17,25 +20,51 @@ void require_length(std::int64_t id, const MotionCode& code) {
                               std::to_string(code_length()) + ": import the recordings again");
 }
 
+/// Sum of the codes' coefficients times their weights, paths carried onto the wanted axis.
+Eigen::VectorXd sum_of(std::span<const WeightedCode> codes, const Query& query) {
+  MotionCode sum;
+  sum.coefficients.setZero(code_length());
+  EndpointPath path{decltype(EndpointPath::velocity)::Zero(), decltype(EndpointPath::deviation)::Zero()};
+  AxisCurve curve{{Vec3(0.0), Vec3(0.0)}, {0.0, 0.0}};
+  const Vec3 wanted = query.target - query.home;
+  for (const auto& [code, weight] : codes) {
+    const Vec3 axis = code->target - code->home;
+    sum.coefficients += weight * code->coefficients;
+    const EndpointPath own = carried(path_of(*code), axis, wanted);
+    path.velocity += weight * own.velocity;
+    path.deviation += weight * own.deviation;
+    const AxisCurve bent = carried(curve_of(*code), axis, wanted);
+    for (std::size_t i = 0; i < curve.offsets.size(); ++i) curve.offsets[i] += weight * bent.offsets[i];
+    curve.speed.alpha += weight * bent.speed.alpha;
+    curve.speed.beta += weight * bent.speed.beta;
+  }
+  set_path(sum, path);
+  set_curve(sum, curve);
+  return std::move(sum.coefficients);
+}
+
+/// Some weights may be negative: exponents are brought back to where they belong.
+void clamp_exponents(MotionCode& code) {
+  AxisCurve curve = curve_of(code);
+  for (double* exponent : {&curve.speed.alpha, &curve.speed.beta})
+    *exponent = std::clamp(*exponent, kLeastExponent, kMostExponent);
+  set_curve(code, curve);
+}
+
 void mean_of(std::span<const WeightedCode> codes, const Query& query, MotionCode& mean) {
   mean.phase = query.phase;
   mean.home = query.home;
   mean.target = query.target;
-  mean.coefficients.setZero(code_length());
+  mean.coefficients = sum_of(codes, query);
+  clamp_exponents(mean);
   mean.duration_s = 0.0;
   double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
-  EndpointPath path{decltype(EndpointPath::velocity)::Zero(), decltype(EndpointPath::deviation)::Zero()};
   for (const auto& [code, weight] : codes) {
-    mean.coefficients += weight * code->coefficients;
     mean.duration_s += weight * code->duration_s;
     shortest = std::min(shortest, code->duration_s);
     longest = std::max(longest, code->duration_s);
-    const EndpointPath own = carried(path_of(*code), code->target - code->home, query.target - query.home);
-    path.velocity += weight * own.velocity;
-    path.deviation += weight * own.deviation;
   }
   mean.duration_s = std::clamp(mean.duration_s, shortest, longest);
-  set_path(mean, path);
 }
 
 /// Each motion once, by the mean of its weights in both sets.
@@ -93,6 +122,37 @@ Blend blend_neighbours(const MotionTable& table, const Query& query, const Schem
   const std::vector<WeightedCode> home_codes = codes_of(at_home), target_codes = codes_of(at_target);
   blend_codes(home_codes, target_codes, query, blend);
   return blend;
+}
+
+void vary(std::span<const std::shared_ptr<const MotionCode>> codes, std::span<const double> normal, const Query& query,
+          Blend& blend) {
+  const auto count = static_cast<double>(codes.size());
+  const double mean = std::accumulate(normal.begin(), normal.end(), 0.0) / count;
+  std::vector<WeightedCode> differences;
+  double longer = 0.0, shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    require_length(0, *codes[i]);
+    differences.push_back({codes[i].get(), (normal[i] - mean) / std::sqrt(count - 1.0)});
+    longer += differences.back().weight * std::log(codes[i]->duration_s);
+    shortest = std::min(shortest, codes[i]->duration_s);
+    longest = std::max(longest, codes[i]->duration_s);
+  }
+  const Eigen::VectorXd change = sum_of(differences, query);
+  for (MotionCode* code : {&blend.from, &blend.to, &blend.whole}) {
+    code->coefficients += change;
+    clamp_exponents(*code);
+    code->duration_s = std::clamp(code->duration_s * std::exp(longer), shortest, longest);
+  }
+}
+
+void reverse(Blend& blend) {
+  std::swap(blend.from, blend.to);
+  for (MotionCode* code : {&blend.from, &blend.to, &blend.whole}) *code = reversed(*code);
+}
+
+EndpointWay way_of(const MotionCode& code, PathForm form) {
+  if (form == PathForm::deviation) return path_of(code);
+  return curve_of(code);
 }
 
 double share_of_target(double t) {

@@ -30,6 +30,7 @@ struct Selections {
       key.smoother = Scheme{}.smoother;
       key.bandwidth = Scheme{}.bandwidth;
       key.ridge = Scheme{}.ridge;
+      key.paths = Scheme{}.paths;
       const auto found = std::find(keys.begin(), keys.end(), key);
       of.push_back(static_cast<std::size_t>(found - keys.begin()));
       if (found == keys.end()) {
@@ -71,14 +72,15 @@ class Prediction {
       : recorded_(recorded), query_(recorded.query(at)), replay_(replay), truth_(truth) {}
 
   /// Error of a blend of these; blends that have been are not made again.
-  [[nodiscard]] double error_of(const BothShares& shares) {
+  [[nodiscard]] double error_of(const BothShares& shares, PathForm form) {
     for (std::size_t i = 0; i < known_.size(); ++i) {
-      if (is_same(known_[i], shares)) return errors_[i];
+      if (forms_[i] == form && is_same(known_[i], shares)) return errors_[i];
     }
     const std::vector<WeightedCode> at_home = codes_of(shares[0]), at_target = codes_of(shares[1]);
     blend_codes(at_home, at_target, query_, blend_);
     known_.push_back(shares);
-    errors_.push_back(replay_.perform(blend_, guess_) ? mean_distance(truth_, guess_) : kFailed);
+    forms_.push_back(form);
+    errors_.push_back(replay_.perform(blend_, form, guess_) ? mean_distance(truth_, guess_) : kFailed);
     return errors_.back();
   }
 
@@ -94,6 +96,7 @@ class Prediction {
   const Replay& replay_;
   const ReplayPostures& truth_;
   std::vector<BothShares> known_;
+  std::vector<PathForm> forms_;
   std::vector<double> errors_;
   Blend blend_;
   ReplayPostures guess_;
@@ -108,14 +111,14 @@ std::vector<double> errors_of(const Recorded& recorded, std::uint32_t at, std::s
       leave_out == LeaveOut::motion ? recorded.of_origin.at(motion.origin) : recorded.of_subject.at(motion.subject_id));
   const std::optional<Replay> replay = Replay::of(motion);
   ReplayPostures truth;
-  if (!replay || !replay->perform(recorded.codes[at].code, truth)) return {};
+  if (!replay || !replay->perform(recorded.codes[at].code, PathForm::deviation, truth)) return {};
   std::vector<BothEnds> nearest(selections.schemes.size());
   Prediction prediction(recorded, at, *replay, truth);
   std::vector<double> errors;
   for (std::size_t s = 0; s < schemes.size(); ++s) {
     BothEnds& found = nearest[selections.of[s]];
     if (found[0].empty()) found = nearest_of(search, selections.schemes[selections.of[s]], schemes[s].effective_sets());
-    errors.push_back(prediction.error_of(shares_of(search, schemes[s], found)));
+    errors.push_back(prediction.error_of(shares_of(search, schemes[s], found), schemes[s].paths));
   }
   return errors;
 }

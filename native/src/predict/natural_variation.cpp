@@ -39,7 +39,8 @@ double error_as_prediction(const Recorded& recorded, std::uint32_t model, std::u
   Blend blend;
   const WeightedCode only{&recorded.codes[model].code, 1.0};
   blend_codes({&only, 1}, {}, recorded.query(wanted), blend);
-  if (!replay || !replay->perform(recorded.codes[wanted].code, truth) || !replay->perform(blend, guess)) {
+  if (!replay || !replay->perform(recorded.codes[wanted].code, PathForm::deviation, truth) ||
+      !replay->perform(blend, PathForm::deviation, guess)) {
     return kMissing;
   }
   return mean_distance(truth, guess);

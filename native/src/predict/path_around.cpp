@@ -49,15 +49,29 @@ const std::vector<PathShape>& path_shapes() {
   return shapes;
 }
 
-double bend_of(const EndpointPath& path, const Vec3& start, const Vec3& end, const PathShape& shape,
-               const Vec3& towards_person) {
+std::vector<CurveBend> curve_bends(const Vec3& towards_person, const std::optional<Vec3>& approach) {
+  std::vector<Vec3> free, along;
+  for (const double up : {0.0, 0.1, 0.25, 0.5}) {
+    for (const double back : {0.0, 0.15, 0.3, 0.5}) free.push_back(Vec3(0, 0, up) + back * towards_person);
+  }
+  for (const double further : {0.0, 0.1, 0.2, 0.3}) along.push_back(further * approach.value_or(Vec3(0.0)));
+  std::vector<CurveBend> bends;
+  for (const Vec3& first : free) {
+    for (const Vec3& second : approach ? along : free) bends.push_back({first, second});
+  }
+  const auto moved = [](const CurveBend& bend) { return glm::length(bend[0]) + glm::length(bend[1]); };
+  std::stable_sort(bends.begin(), bends.end(), [&](const auto& a, const auto& b) { return moved(a) < moved(b); });
+  return bends;
+}
+
+double bend_of(const std::function<Vec3(double)>& bent, const std::function<Vec3(double)>& learned) {
+  std::vector<Vec3> line;
+  for (int k = 0; k <= 2 * kTimes; ++k) line.push_back(learned(0.5 * k / kTimes));
   double most = 0.0;
   for (int i = 1; i < kTimes; ++i) {
-    const Vec3 at = shaped_point_at(path, start, end, shape, towards_person, static_cast<double>(i) / kTimes);
-    double nearest = glm::distance(at, start);
-    for (int k = 0; k <= 2 * kTimes; ++k) {
-      nearest = std::min(nearest, glm::distance(at, point_at(path, start, end, 0.5 * k / kTimes)));
-    }
+    const Vec3 at = bent(static_cast<double>(i) / kTimes);
+    double nearest = glm::distance(at, line.front());
+    for (const Vec3& point : line) nearest = std::min(nearest, glm::distance(at, point));
     most = std::max(most, nearest);
   }
   return most;

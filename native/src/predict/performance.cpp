@@ -50,8 +50,8 @@ HandEnds hand_ends(const Stage& stage, const Task& task, const Body& body) {
   return {here, grips_on(task, other(stage.object))};
 }
 
-Performance::Performance(const Plan& plan, const std::vector<Blend>& blends, const Task& task, const Body& body,
-                         double body_mass_kg, double frame_rate)
+Performance::Performance(const Plan& plan, const std::vector<Blend>& blends, const std::vector<StageWay>& ways,
+                         const Task& task, const Body& body, double body_mass_kg, double frame_rate)
     : plan_(plan),
       task_(task),
       body_(body),
@@ -59,8 +59,9 @@ Performance::Performance(const Plan& plan, const std::vector<Blend>& blends, con
       stand_(anchors_of(body.posture())),
       between_ankles_(0.5 * (stand_.ankle[0] + stand_.ankle[1])),
       linkage_(two_handed_linkage(), body),
-      holder_(two_handed_linkage(), body, body_mass_kg) {
-  for (std::size_t i = 0; i < plan.stages.size(); ++i) acts_.push_back(act_of(plan.stages[i], blends[i]));
+      holder_(two_handed_linkage(), body, body_mass_kg),
+      ways_(ways) {
+  for (std::size_t i = 0; i < plan.stages.size(); ++i) acts_.push_back(act_of(plan.stages[i], blends[i], ways[i]));
   for (std::size_t i = 0; i < acts_.size(); ++i) join(i);
   find_openings();
 }
@@ -76,16 +77,17 @@ void Performance::find_openings() {
   }
 }
 
-Performance::Act Performance::act_of(const Stage& stage, const Blend& blend) const {
+Performance::Act Performance::act_of(const Stage& stage, const Blend& blend, const StageWay& way) const {
   Act act{.stage = &stage,
           .blend = &blend,
           .hands = hand_ends(stage, task_, body_),
-          .path = path_of(blend.whole),
+          .way = way,
           .from = place_pose(stage.object),
           .to = place_pose(other(stage.object)),
           .turning = {},
           .clearance = {},
           .shape = {},
+          .is_bent = false,
           .half_first = Vec3(0.0),
           .half_last = Vec3(0.0),
           .opening_m = 0.0,
@@ -180,9 +182,9 @@ Performance::Turning Performance::turning_of(const Act& act) const {
 /// The box turns with the person who carries it, from its turn at the one place to its turn at the other, and as much
 /// more as recorded hands have turned on their way.
 BoxPose Performance::carried_object(const Act& act, double t) const {
-  const double share = progress(act.path, t);
+  const double share = progress(act.way.way, t);
   const Vec3 &from = act.from.position, &to = act.to.position;
-  const Vec3 learned = act.shape.is_straight() ? point_at(act.path, from, to, t, share) : way(act, from, to, t);
+  const Vec3 learned = act.shape.is_straight() ? point_at(act.way.way, from, to, t, share) : point_of(act, from, to, t);
   const Vec3 position = learned + Vec3(0, 0, act.clearance.rise_m(t));
   const Turning& turning = act.turning;
   const double recorded = heading(separation_at(act.blend->whole, t)) - turning.recorded;
@@ -200,7 +202,7 @@ Vec3 Performance::recorded_half(const Act& act, double t, const Vec3& hold) cons
 /// The hold point goes along its path; the hands part from it as recorded, made to fit at both ends (2004, p. 549: the
 /// hand that is empty has a trajectory of its own).
 Grips Performance::empty_grips(const Act& act, double t) const {
-  const Vec3 hold = way(act, hold_point(act.hands.first), hold_point(act.hands.last), t);
+  const Vec3 hold = point_of(act, hold_point(act.hands.first), hold_point(act.hands.last), t);
   const double share = smooth(t);
   Vec3 half = recorded_half(act, t, hold) + (1.0 - share) * act.half_first + share * act.half_last;
   const double away = act.stage->phase == Phase::return_ ? t : 1.0 - t;

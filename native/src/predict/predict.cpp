@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kUnbalanced_m = 0.02;  // weight this far beyond the feet is reported
 constexpr int kMostWaysRound = 12;
-constexpr double kFarFromData_m = 0.25;
-constexpr double kStatureMargin_m = 0.03;
 
 template <class... Parts>
 [[noreturn]] void fail(const Parts&... parts) {
@@ -34,6 +32,13 @@ void check(const Subject& subject, const PredictOptions& options) {
   if (!(options.clearance_m >= 0.0 && options.clearance_m <= 0.5)) {
     fail("clearance is ", options.clearance_m, " m; it must lie between 0 and 0.5 m");
   }
+  if (options.variation && !(options.variation->amount >= 0.0 && options.variation->amount <= 2.0)) {
+    fail("amount of the variation is ", options.variation->amount, "; it must lie between 0 and 2");
+  }
+  if (!options.hand_paths.empty() && options.hand_paths.rbegin()->first >= options.phases.size()) {
+    fail("a hand path is given for phase number ", options.hand_paths.rbegin()->first, ", but there are ",
+         options.phases.size(), ", counted from 0");
+  }
   for (const auto& [phase, seconds] : options.durations_s) {
     if (!(seconds >= 0.1 && seconds <= 60.0)) {
       fail("duration of ", phase_name(phase), " is ", seconds, " s; it must lie between 0.1 and 60 s");
@@ -45,31 +50,6 @@ void check(const Subject& subject, const PredictOptions& options) {
 
 double body_mass(const Subject& subject) {
   return subject.mass_kg.value_or(usual_mass_kg(subject.stature_m));
-}
-
-/// `recorded` holds at least one motion.
-std::vector<std::string> why_outside(const PhaseColumns& recorded, const Query& query) {
-  const auto nearest = [](const std::vector<Vec3>& places, const Vec3& wanted) {
-    double square = 1e18;
-    for (const Vec3& place : places) square = std::min(square, glm::dot(place - wanted, place - wanted));
-    return std::sqrt(square);
-  };
-  const double target = nearest(recorded.target, query.target), home = nearest(recorded.home, query.home);
-  std::vector<std::string> reasons;
-  const auto add = [&](const auto&... parts) {
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(2);
-    (out << ... << parts);
-    reasons.push_back(out.str());
-  };
-  if (target > kFarFromData_m) add("the nearest recorded target is ", target, " m away");
-  if (home > kFarFromData_m) add("the nearest recorded home is ", home, " m away");
-  const std::vector<double>& statures = recorded.all.by(Trait::stature);
-  const double shortest = statures.front(), tallest = statures.back();
-  if (query.subject.stature_m < shortest - kStatureMargin_m || query.subject.stature_m > tallest + kStatureMargin_m) {
-    add("stature ", query.subject.stature_m, " m lies outside the recorded ", shortest, " to ", tallest, " m");
-  }
-  return reasons;
 }
 
 std::string readable(Joint joint) {
@@ -176,33 +156,57 @@ std::optional<double> given_seconds(Phase phase, const PredictOptions& options) 
   return given == options.durations_s.end() ? std::nullopt : std::optional(given->second);
 }
 
-/// The neighbours of one phase, averaged; what is outside the data is added to the motion.
-Blend blend_for(const Corpus& corpus, const MotionTable& table, const Stage& stage, const HandEnds& hands,
-                const Subject& subject, const PredictOptions& options, Motion& motion) {
+/// What the corpus says of one stage; what is outside the data is added to the motion.
+LearnedStage learned_for(const Corpus& corpus, const MotionTable& table, const Stage& stage, const HandEnds& hands,
+                         const Subject& subject, const PredictOptions& options, Motion& motion) {
   const Query query{stage.phase, hold_point(hands.first), hold_point(hands.last), subject,
                     given_seconds(stage.phase, options)};
-  Blend blend = blend_neighbours(table, query, options.scheme, [&](std::int64_t id) { return corpus.code(id); });
-  for (const std::string& reason : why_outside(table.of(query.phase), query)) {
+  LearnedStage learned = learn_stage(corpus, table, query, options.scheme, options.variation, motion.neighbours.size());
+  for (const std::string& reason : learned.outside) {
     const std::string said = options.phases.size() > 1 ? std::string(phase_name(stage.phase)) + ": " + reason : reason;
     if (std::find(motion.outside_data.begin(), motion.outside_data.end(), said) == motion.outside_data.end())
       motion.outside_data.push_back(said);
   }
-  if (!(blend.whole.duration_s >= 0.05 && blend.whole.duration_s <= 60.0)) {
-    fail("the neighbours take ", blend.whole.duration_s, " s; a phase takes 0.05 to 60 s");
+  if (const double seconds = learned.blend.whole.duration_s; !(seconds >= 0.05 && seconds <= 60.0)) {
+    fail("the neighbours take ", seconds, " s; a phase takes 0.05 to 60 s");
   }
-  motion.neighbours.push_back({stage.phase, blend.neighbours});
-  return blend;
+  motion.neighbours.push_back({stage.phase, learned.blend.neighbours});
+  return learned;
 }
+
+bool ends_at_target(const Stage& stage) {
+  if (stage.phase == Phase::reach) return stage.object == Place::target;
+  return is_loaded(stage.phase) && other(stage.object) == Place::target;
+}
+
+/// What the user gave; else how the target shall be come to; else what the neighbours know, or the published model.
+StageWay way_for(std::size_t number, const Stage& stage, const LearnedStage& learned, const HandEnds& hands,
+                 const PredictOptions& options) {
+  const Vec3 start = hold_point(hands.first), end = hold_point(hands.last);
+  const auto given = options.hand_paths.find(number);
+  if (given != options.hand_paths.end()) return given_way(learned.blend, given->second, start, end);
+  if (options.approach && ends_at_target(stage)) {
+    return approaching(learned.blend, *options.approach, start, end, level_direction(end, Vec3(0.0)));
+  }
+  return learned.borrowed ? published_way(start, end) : learned_way(learned.blend, options.scheme.paths);
+}
+
+/// What the stages rest on.
+struct Acting {
+  std::vector<Blend> blends;
+  std::vector<StageWay> ways;
+};
 
 double seconds_of(Phase phase, const Blend& blend, const PredictOptions& options) {
   return given_seconds(phase, options).value_or(blend.whole.duration_s);
 }
 
 /// Raising the path over an edge is a courtesy: a path that can only be held as it was learned stays as it was.
-void perform_freely(const std::vector<Blend>& blends, const Subject& subject, const Task& task, const Body& body,
+void perform_freely(const Acting& acting, const Subject& subject, const Task& task, const Body& body,
                     const PredictOptions& options, Motion& motion) {
   for (const bool raised : {true, false}) {
-    Performance performance(motion.plan, blends, task, body, body_mass(subject), options.frame_rate);
+    Performance performance(motion.plan, acting.blends, acting.ways, task, body, body_mass(subject),
+                            options.frame_rate);
     if (raised) performance.raise_over_edges();
     const std::optional<Failure> failure = perform(performance, options.frame_rate, motion);
     if (!failure) return;
@@ -226,22 +230,27 @@ void require_places_in_reach(const Performance& performance, Motion& motion) {
 }
 
 /// Ways round the obstacles that this body cannot hold give way to the next.
-void perform_past(const Obstacles& obstacles, const std::vector<Blend>& blends, const Subject& subject,
-                  const Task& task, const Body& body, const PredictOptions& options, Motion& motion) {
-  std::vector<std::size_t> shapes(blends.size(), 0);
+void perform_past(const Obstacles& obstacles, const Acting& acting, const Subject& subject, const Task& task,
+                  const Body& body, const PredictOptions& options, Motion& motion) {
+  std::vector<std::size_t> manners(acting.blends.size(), 0);
   for (int attempt = 1;; ++attempt) {
-    Performance performance(motion.plan, blends, task, body, body_mass(subject), options.frame_rate);
+    Performance performance(motion.plan, acting.blends, acting.ways, task, body, body_mass(subject),
+                            options.frame_rate);
     if (attempt == 1) require_places_in_reach(performance, motion);
-    shapes = performance.go_round(obstacles, options.clearance_m, shapes);
+    manners = performance.go_round(obstacles, options.clearance_m, manners);
     const std::optional<Failure> failure = perform(performance, options.frame_rate, motion);
-    if (!failure) return;
+    if (!failure) {
+      const std::size_t touching = performance.frames_touching(obstacles, options.clearance_m);
+      if (touching > 0) motion.corrections.push_back({"obstacle on the given hand path", 0.0, 0.0, touching});
+      return;
+    }
     if (attempt == kMostWaysRound || standing_place(motion.plan, failure->frame)) {
       fail_out_of_reach(*failure, motion, hold_point(performance.grips(static_cast<double>(failure->frame))));
     }
     const auto& stages = motion.plan.stages;
     const auto stage =
         std::find_if(stages.begin(), stages.end() - 1, [&](const Stage& s) { return failure->frame <= s.last; });
-    ++shapes[static_cast<std::size_t>(stage - stages.begin())];
+    ++manners[static_cast<std::size_t>(stage - stages.begin())];
   }
 }
 
@@ -256,17 +265,21 @@ Motion predict(const Corpus& corpus, const Subject& subject, const Task& task, c
   if (table->motions().empty()) fail("the corpus ", corpus.path().string(), " holds no motions; import some first");
   Motion motion;
   std::vector<double> seconds(options.phases.size(), 1.0);
-  std::vector<Blend> blends;
+  Acting acting;
   for (const Stage& stage : plan_phases(options.phases, seconds, options.frame_rate).stages) {
+    const std::size_t number = acting.blends.size();
     const HandEnds hands = hand_ends(stage, task, body);
-    blends.push_back(blend_for(corpus, *table, stage, hands, subject, options, motion));
-    seconds[blends.size() - 1] = seconds_of(stage.phase, blends.back(), options);
+    LearnedStage learned = learned_for(corpus, *table, stage, hands, subject, options, motion);
+    acting.ways.push_back(way_for(number, stage, learned, hands, options));
+    motion.ways.push_back(acting.ways.back().form);
+    seconds[number] = seconds_of(stage.phase, learned.blend, options);
+    acting.blends.push_back(std::move(learned.blend));
   }
   motion.plan = plan_phases(options.phases, seconds, options.frame_rate);
   if (options.obstacles && !options.obstacles->empty()) {
-    perform_past(*options.obstacles, blends, subject, task, body, options, motion);
+    perform_past(*options.obstacles, acting, subject, task, body, options, motion);
   } else {
-    perform_freely(blends, subject, task, body, options, motion);
+    perform_freely(acting, subject, task, body, options, motion);
   }
   return motion;
 }

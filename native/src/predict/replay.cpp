@@ -55,21 +55,21 @@ Replay::Replay(const MotionSummary& motion)
       holder_(two_handed_linkage(), Body::from_stature(motion.subject.stature_m, motion.subject.sex),
               usual_mass_kg(motion.subject.stature_m)) {}
 
-bool Replay::perform(const MotionCode& code, ReplayPostures& postures) const {
+bool Replay::perform(const MotionCode& code, PathForm form, ReplayPostures& postures) const {
   const Coordinates coordinates = curves_of(code).transpose().lazyProduct(basis().whole);
-  return perform(path_of(code), coordinates, postures);
+  return perform(way_of(code, form), coordinates, postures);
 }
 
-bool Replay::perform(const Blend& blend, ReplayPostures& postures) const {
+bool Replay::perform(const Blend& blend, PathForm form, ReplayPostures& postures) const {
   Coordinates coordinates = curves_of(blend.from).transpose().lazyProduct(basis().from);
   coordinates += curves_of(blend.to).transpose().lazyProduct(basis().to);
-  return perform(path_of(blend.whole), coordinates, postures);
+  return perform(way_of(blend.whole, form), coordinates, postures);
 }
 
-bool Replay::perform(const EndpointPath& path, const Coordinates& coordinates, ReplayPostures& postures) const {
+bool Replay::perform(const EndpointWay& way, const Coordinates& coordinates, ReplayPostures& postures) const {
   Anchors anchors = anchors_;
   for (int i = 0; i < kReplayTimes; ++i) {
-    const Vec3 hold = point_at(path, home_, target_, time_of(i));
+    const Vec3 hold = point_at(way, home_, target_, time_of(i));
     anchors.grip = {hold - half_grip_, hold + half_grip_};
     HoldReport report;
     postures[static_cast<std::size_t>(i)] =

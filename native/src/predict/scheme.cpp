@@ -66,6 +66,7 @@ std::string describe(const Scheme& scheme) {
   if (has_kernel(scheme)) out << ' ' << scheme.bandwidth;
   if (scheme.smoother == Smoother::linear) out << " ridge " << scheme.ridge;
   if (scheme.effective_sets() == Sets::one) out << ", one set";
+  if (scheme.paths == PathForm::bezier) out << ", Bezier paths";
   if (!scheme.mirrored) out << ", no mirror images";
   return out.str();
 }
@@ -91,9 +92,13 @@ std::vector<Scheme> all_schemes() {
   };
   for (const int k : {1, 3, 5, 8}) distances({stature}, k);
   for (const int k : {3, 5, 8}) distances({}, k);
-  for (const int k : {1, 3, 5, 8}) {
+  for (const int k : {1, 5}) {
     schemes.push_back(by(Measure::ranks, true, {stature}, k));
     schemes.back().mirrored = false;
+  }
+  for (const int k : {1, 3, 5, 8}) {
+    schemes.push_back(by(Measure::ranks, true, {stature}, k));
+    schemes.back().paths = PathForm::bezier;
   }
   for (const int k : {3, 5, 8}) {
     schemes.push_back(by(Measure::ranks, true, {stature}, k));
@@ -106,7 +111,7 @@ std::vector<Scheme> all_schemes() {
     }
   }
   for (const auto& [bandwidth, ridge] :
-       {std::pair{0.25, 0.1}, {0.5, 0.1}, {1.0, 0.1}, {0.25, 1.0}, {0.5, 1.0}, {1.0, 1.0}, {1.0, 10.0}}) {
+       {std::pair{0.25, 0.1}, {0.5, 0.1}, {0.5, 1.0}, {1.0, 1.0}, {1.0, 10.0}}) {
     distances({stature}, 20, Smoother::linear);
     schemes.back().bandwidth = bandwidth;
     schemes.back().ridge = ridge;

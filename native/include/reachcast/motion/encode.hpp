@@ -3,12 +3,13 @@
 #pragma once
 
 #include "reachcast/curves/bspline.hpp"
-#include "reachcast/curves/endpoint_path.hpp"
+#include "reachcast/curves/endpoint_way.hpp"
 #include "reachcast/motion/motion_code.hpp"
 
 namespace reachcast {
 
-/// Number of coefficients of a code: the path of the hold point, how the hands part, then eight per posture coordinate.
+/// Number of coefficients of a code: the path of the hold point, both as in the 2004 paper and as in that of 2007, how
+/// the hands part, then eight per posture coordinate.
 [[nodiscard]] Eigen::Index code_length();
 
 /// Throws std::invalid_argument naming the origin of the reach when it has fewer than 4 postures, a value that is not
@@ -18,6 +19,12 @@ namespace reachcast {
 /// The path of the hold point kept in a code.
 [[nodiscard]] EndpointPath path_of(const MotionCode& code);
 void set_path(MotionCode& code, const EndpointPath& path);
+/// The same path as a Bezier curve.
+[[nodiscard]] AxisCurve curve_of(const MotionCode& code);
+void set_curve(MotionCode& code, const AxisCurve& curve);
+
+/// The same motion played backwards, as encode_reach(reversed(reach)) has it: splines are the same from either end.
+[[nodiscard]] MotionCode reversed(const MotionCode& code);
 
 /// Half the way from the left grip to the right one at scaled time t, in statures, as seen by a person who faces the
 /// hold point (facing_yaw). With the path of the hold point between them it is the path of either hand; on a box that

@@ -24,6 +24,8 @@ enum class Phase {
 inline constexpr std::size_t kPhaseCount = 4;
 /// Whether the object is in the hands: transfer and retrieve.
 [[nodiscard]] bool is_loaded(Phase phase);
+/// What the phase is when it is played backwards: transfer and retrieve, reach and return.
+[[nodiscard]] Phase opposite(Phase phase);
 [[nodiscard]] std::string_view phase_name(Phase phase);
 [[nodiscard]] std::optional<Phase> find_phase(std::string_view name);
 
@@ -43,8 +45,10 @@ struct Reach {
 /// The same motion performed by the mirror image of the person: x changes sign, left and right change names.
 [[nodiscard]] Reach mirrored(const Reach& reach);
 
-/// The same motion played backwards: a transfer becomes a retrieve, a reach a return, and the other way round. The
-/// origin says so.
+/// What is added to the origin of a motion that is played backwards.
+inline constexpr const char* kBackwards = " (backwards)";
+
+/// The same motion played backwards, of the opposite phase. The origin says so.
 [[nodiscard]] Reach reversed(const Reach& reach);
 
 }  // namespace reachcast

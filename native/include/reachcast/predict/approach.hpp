@@ -19,6 +19,9 @@ class EdgeClearance {
   /// box's origin at scaled time t; it is looked at at fixed times, so that the rise does not depend on a frame rate.
   EdgeClearance(const std::function<Vec3(double)>& place_at, const Box& box);
 
+  /// Takes back the rise towards the end of the path.
+  void leave_end() { late_m_ = 0.0; }
+
   [[nodiscard]] double rise_m(double t) const;
   [[nodiscard]] double largest_m() const;
 

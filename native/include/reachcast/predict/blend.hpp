@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "reachcast/curves/endpoint_way.hpp"
 #include "reachcast/motion/motion_code.hpp"
 #include "reachcast/predict/neighbours.hpp"
 
@@ -37,6 +38,19 @@ struct WeightedCode {
 /// its neighbours are not touched.
 void blend_codes(std::span<const WeightedCode> at_home, std::span<const WeightedCode> at_target, const Query& query,
                  Blend& blend);
+
+/// How motions vary about their mean, as one draw of a normal distribution with their covariance (Faraway, Reed, Wang
+/// 2007, section 4, of all coefficients at once): normal numbers times each code's difference from the mean, so that no
+/// covariance need be made. At least 2 codes, as many numbers. The logarithm of the duration varies alike, but the
+/// duration stays within the codes' own.
+void vary(std::span<const std::shared_ptr<const MotionCode>> codes, std::span<const double> normal, const Query& query,
+          Blend& blend);
+
+/// from, to and whole played backwards; the neighbours stay.
+void reverse(Blend& blend);
+
+/// The path of the hold point in a code, in this form.
+[[nodiscard]] EndpointWay way_of(const MotionCode& code, PathForm form);
 
 /// How much of the posture at scaled time t is that of `to`; the rest is that of `from`.
 [[nodiscard]] double share_of_target(double t);

@@ -4,7 +4,9 @@
 /// surfaces, which would leave it on either side of a board, but chosen from such ways round, the least bent first.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "reachcast/curves/endpoint_path.hpp"
@@ -26,8 +28,15 @@ struct PathShape {
 /// All shapes that are tried, the straight one first, then by how much they bend.
 [[nodiscard]] const std::vector<PathShape>& path_shapes();
 
-/// How far a shaped path goes from the line of the learned one, whenever it is there; metres, to within 1 cm.
-[[nodiscard]] double bend_of(const EndpointPath& path, const Vec3& start, const Vec3& end, const PathShape& shape,
-                             const Vec3& towards_person);
+/// A Bezier curve is bent by its inner control points, so that it stays one: how far each is moved.
+using CurveBend = std::array<Vec3, 2>;
+
+/// All bends that are tried, none first, then by how far they move the points: up and towards the person, over 0.5 m;
+/// the second point only along `approach` where that is asked for.
+[[nodiscard]] std::vector<CurveBend> curve_bends(const Vec3& towards_person, const std::optional<Vec3>& approach);
+
+/// How far one way goes from the line of another, whenever it is there; metres, to within 1 cm. Both: point at scaled
+/// time.
+[[nodiscard]] double bend_of(const std::function<Vec3(double)>& bent, const std::function<Vec3(double)>& learned);
 
 }  // namespace reachcast

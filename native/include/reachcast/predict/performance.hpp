@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "reachcast/curves/endpoint_path.hpp"
 #include "reachcast/motion/encode.hpp"
 #include "reachcast/posture/hold.hpp"
 #include "reachcast/posture/trunk_pose.hpp"
@@ -14,6 +13,7 @@
 #include "reachcast/predict/obstacles.hpp"
 #include "reachcast/predict/path_around.hpp"
 #include "reachcast/predict/plan.hpp"
+#include "reachcast/predict/stage_way.hpp"
 #include "reachcast/predict/stance_track.hpp"
 
 namespace reachcast {
@@ -34,17 +34,21 @@ struct HandEnds {
 
 class Performance {
  public:
-  /// One blend per stage of the plan. All references must outlive the performance.
-  Performance(const Plan& plan, const std::vector<Blend>& blends, const Task& task, const Body& body,
-              double body_mass_kg, double frame_rate);
+  /// One blend and one way per stage of the plan. All references must outlive the performance.
+  Performance(const Plan& plan, const std::vector<Blend>& blends, const std::vector<StageWay>& ways, const Task& task,
+              const Body& body, double body_mass_kg, double frame_rate);
 
-  /// Raises the object's path over the edges of what it may stand on (approach.hpp).
+  /// Raises the object's path over the edges of what it may stand on (approach.hpp). Where the way comes to its end
+  /// from a direction that was asked for it is not raised there, and a way that the user gave is left as it is.
   void raise_over_edges();
-  /// Bends the ways of object and hands round the obstacles, each by the first of path_shapes() from the one given for
-  /// its stage on that keeps `clearance_m`, less and less over the last 10 cm before a place. Returns the shapes taken.
+  /// Bends the ways of object and hands round the obstacles, each in the first manner (of path_shapes() or
+  /// curve_bends()) from the one given for its stage on that keeps `clearance_m`, less and less over the last 10 cm
+  /// before a place. Returns the manners taken. A way that the user gave is left as it is.
   /// Throws std::invalid_argument when the object would stand in an obstacle, or none is left for a stage.
   std::vector<std::size_t> go_round(const Obstacles& obstacles, double clearance_m,
-                                    const std::vector<std::size_t>& first_shapes);
+                                    const std::vector<std::size_t>& first_manners);
+  /// In how many frames the object or the hands come nearer than `clearance_m` to an obstacle on a way that the user gave.
+  [[nodiscard]] std::size_t frames_touching(const Obstacles& obstacles, double clearance_m) const;
 
   /// How far the object's path is raised over edges at most, and how far a path is bent round obstacles.
   [[nodiscard]] double raised_m() const;
@@ -74,23 +78,26 @@ class Performance {
     const Stage* stage = nullptr;
     const Blend* blend = nullptr;
     HandEnds hands;
-    EndpointPath path;           ///< of the hold point, or of the object's origin
+    StageWay way;                ///< of the hold point, or of the object's origin; bent round obstacles
     BoxPose from, to;            ///< of the object
     Turning turning;             ///< of a loaded stage
     EdgeClearance clearance;     ///< of a loaded stage
-    PathShape shape;             ///< round obstacles
+    PathShape shape;             ///< round obstacles, if the way is an EndpointPath
+    bool is_bent = false;        ///< in either manner
     Vec3 half_first, half_last;  ///< of an empty stage: what its ends lack of half the recorded way between the hands
     double opening_m = 0.0;      ///< how far empty hands stay clear of the object's sides
     PostureCurves curves_from, curves_to;  ///< of the blend, shifted so that stages meet
   };
 
-  [[nodiscard]] Act act_of(const Stage& stage, const Blend& blend) const;
+  [[nodiscard]] Act act_of(const Stage& stage, const Blend& blend, const StageWay& way) const;
   [[nodiscard]] Turning turning_of(const Act& act) const;
   void join(std::size_t act);
   void find_openings();
   [[nodiscard]] bool is_free(const Act& act, const Obstacles& obstacles, double clearance_m) const;
+  [[nodiscard]] bool is_free_at(const Act& act, double t, const Obstacles& obstacles, double clearance_m) const;
+  [[nodiscard]] std::vector<CurveBend> bends_of(const Act& act) const;
   void require_free_place(Place place, const Obstacles& obstacles) const;
-  [[nodiscard]] Vec3 way(const Act& act, const Vec3& from, const Vec3& to, double t) const;
+  [[nodiscard]] Vec3 point_of(const Act& act, const Vec3& from, const Vec3& to, double t) const;
   [[nodiscard]] Vec3 towards_person(const Vec3& from, const Vec3& to) const;
   [[nodiscard]] double opening_of(const Act& act) const;
   [[nodiscard]] const Act& hands_act(double moment) const;
@@ -114,6 +121,7 @@ class Performance {
   BodyLinkage linkage_;
   Holder holder_;
   std::vector<Act> acts_;
+  const std::vector<StageWay>& ways_;  ///< as they were before any bending
   double last_opening_m_ = 0.0;  ///< after the object has been let go and nothing follows
 };
 

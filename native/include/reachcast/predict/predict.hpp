@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "reachcast/body/body.hpp"
+#include "reachcast/predict/learned_stage.hpp"
 #include "reachcast/predict/neighbours.hpp"
 #include "reachcast/predict/obstacles.hpp"
 #include "reachcast/predict/plan.hpp"
+#include "reachcast/predict/stage_way.hpp"
 #include "reachcast/predict/task.hpp"
 
 namespace reachcast {
@@ -24,6 +26,13 @@ struct PredictOptions {
   /// What the object and the hands keep clear of, body frame; none when empty. Arms and body are not looked at.
   std::shared_ptr<const Obstacles> obstacles{};
   double clearance_m = 0.02;  ///< 0 to 0.5
+  /// By number of the phase, from 0: inner control points of the hold point's path. Such a path is neither raised over
+  /// edges nor bent round obstacles; a correction says in how many frames it meets one.
+  std::map<std::size_t, InnerPoints> hand_paths{};
+  /// From where the hands, or the object in them, come to the target.
+  std::optional<Approach> approach{};
+  /// Another motion than the mean.
+  std::optional<Variation> variation{};
 };
 
 /// The motions that a phase rests on, heaviest first.
@@ -35,8 +44,8 @@ struct PhaseNeighbours {
 /// A change made after decoding, or what no change could mend; largest over the frames.
 struct Correction {
   /// "trunk": moved as hold.hpp says; "edge": the path of the box raised as approach.hpp says (when no obstacles are
-  /// given); "obstacles": a path bent as path_around.hpp says; "unbalanced": the weight
-  /// lies this far beyond the feet, a person would step or fall.
+  /// given); "obstacles": a path bent as path_around.hpp says; "obstacle on the given hand path": how often the path
+  /// that the user gave meets one; "unbalanced": the weight lies this far beyond the feet, a person would step or fall.
   std::string name;
   double amount_m = 0.0;
   double amount_rad = 0.0;
@@ -49,6 +58,7 @@ struct Motion {
   std::vector<double> times_s;    ///< frame / frame_rate
   Plan plan;
   std::vector<PhaseNeighbours> neighbours;  ///< one per phase
+  std::vector<WayForm> ways;                ///< one per phase: what its path of the hands comes from
   std::vector<std::string> outside_data;    ///< why the task lies outside the corpus; empty when it lies inside
   std::vector<Correction> corrections;
 };
@@ -57,7 +67,7 @@ struct Motion {
 /// (`return_`), come for it again (`reach`) and bring it home (`retrieve`), in any order that can be performed; the
 /// feet stay where the body stands. Hands, feet and segment lengths are exact; positions and velocities are continuous
 /// where phases meet. Deterministic. Throws std::invalid_argument for bad input, phases that cannot follow one another,
-/// a corpus without one of them, and a place of the object that this body cannot hold, saying which, by how many
+/// an empty corpus, and a place of the object that this body cannot hold, saying which, by how many
 /// centimetres and from which joint.
 [[nodiscard]] Motion predict(const Corpus& corpus, const Subject& subject, const Task& task, const Body& body,
                              const PredictOptions& options = {});

@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "reachcast/curves/endpoint_path.hpp"
+#include "reachcast/curves/endpoint_way.hpp"
 #include "reachcast/posture/hold.hpp"
 #include "reachcast/posture/linkage.hpp"
 #include "reachcast/predict/blend.hpp"
@@ -19,20 +19,20 @@ using ReplayPostures = std::array<Posture, kReplayTimes>;
 
 /// The stage of one motion: published proportions of its subject's stature ("link lengths predicted using the height of
 /// the actual subject and not their actual link lengths", Faraway 2004, p. 549), its home and target, its hands'
-/// distance. A level pair of grips goes along the path of a code; the body follows.
+/// distance. A level pair of grips goes along the path of a code, in either form; the body follows.
 class Replay {
  public:
   /// Nothing for a stature without published proportions.
   [[nodiscard]] static std::optional<Replay> of(const MotionSummary& motion);
 
   /// False where the body cannot hold the box somewhere on the way; `postures` are then of no use.
-  [[nodiscard]] bool perform(const MotionCode& code, ReplayPostures& postures) const;
-  [[nodiscard]] bool perform(const Blend& blend, ReplayPostures& postures) const;
+  [[nodiscard]] bool perform(const MotionCode& code, PathForm form, ReplayPostures& postures) const;
+  [[nodiscard]] bool perform(const Blend& blend, PathForm form, ReplayPostures& postures) const;
 
  private:
   using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, kReplayTimes>;
   explicit Replay(const MotionSummary& motion);
-  [[nodiscard]] bool perform(const EndpointPath& path, const Coordinates& coordinates, ReplayPostures& postures) const;
+  [[nodiscard]] bool perform(const EndpointWay& way, const Coordinates& coordinates, ReplayPostures& postures) const;
 
   Vec3 home_, target_, half_grip_;
   Anchors anchors_;

@@ -32,6 +32,12 @@ enum class Smoother {
 /// One set of neighbours for all of the motion, as in the paper, or one for each end.
 enum class Sets { one, two };
 
+/// Both representations of where an endpoint goes (DESIGN 3.3).
+enum class PathForm {
+  deviation,  ///< speed along the axis and deviation from it (2004 paper, section 3.2)
+  bezier,     ///< inner control points of a cubic, and exponents of its speed (2007 paper)
+};
+
 /// A motion whose age, sex or mass is unknown lies in the middle: its rank is half the number of the known ones, its
 /// difference one scale. A subject's unknown age, sex or mass does not count. A duration must be given.
 struct Scheme {
@@ -41,6 +47,7 @@ struct Scheme {
   std::array<bool, kTraitCount> traits{true};  ///< by Trait: what else counts; stature by default
   bool mirrored = true;                        ///< mirror images may take part
   Sets sets = Sets::two;
+  PathForm paths = PathForm::deviation;
   Smoother smoother = Smoother::triangular;
   double bandwidth = 0.5;      ///< of kernel and linear, in scales; > 0. Far from all motions the nearest one is left
   double ridge = 0.1;          ///< of linear, pull on the slopes, in weights of all motions; > 0. Large: `kernel`
@@ -60,7 +67,7 @@ void check(const Scheme& scheme);
 
 /// The schemes that p. 549 names, as far as the corpus knows their values ("strength" is not recorded).
 [[nodiscard]] std::vector<Scheme> paper_schemes();
-/// 60 schemes: those, distances, one set of neighbours, no mirror images, kernels and local lines.
+/// 60 schemes: those, distances, one set of neighbours, Bezier paths, no mirror images, kernels and local lines.
 [[nodiscard]] std::vector<Scheme> all_schemes();
 
 }  // namespace reachcast

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reachcast/predict/learned_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "reachcast/curves/normal_numbers.hpp"
+
+namespace reachcast {
+namespace {
+
+constexpr double kFarFromData_m = 0.25;
+constexpr double kStatureMargin_m = 0.03;
+
+/// A phase in whose stead another serves, and whether it is played backwards for that.
+struct Substitute {
+  Phase phase = Phase::transfer;
+  bool backwards = false;
+};
+
+/// Best first. Phases that bring the hands to a place: transfer and reach; the others take them from one.
+std::array<Substitute, 4> substitutes_for(Phase phase) {
+  const bool arrives = phase == Phase::reach || phase == Phase::transfer;
+  const bool loaded = is_loaded(phase);
+  const Phase other = arrives ? (loaded ? Phase::reach : Phase::transfer) : (loaded ? Phase::return_ : Phase::retrieve);
+  return {{{phase, false}, {opposite(phase), true}, {other, false}, {opposite(other), true}}};
+}
+
+Substitute substitute_in(const MotionTable& table, Phase phase) {
+  for (const Substitute& substitute : substitutes_for(phase)) {
+    if (!table.of(substitute.phase).rows.empty()) return substitute;
+  }
+  throw std::invalid_argument("the corpus holds no motions; import some first");
+}
+
+/// `recorded` holds at least one motion.
+std::vector<std::string> why_outside(const PhaseColumns& recorded, const Query& query) {
+  const auto nearest = [](const std::vector<Vec3>& places, const Vec3& wanted) {
+    double square = 1e18;
+    for (const Vec3& place : places) square = std::min(square, glm::dot(place - wanted, place - wanted));
+    return std::sqrt(square);
+  };
+  const double target = nearest(recorded.target, query.target), home = nearest(recorded.home, query.home);
+  std::vector<std::string> reasons;
+  const auto add = [&](const auto&... parts) {
+    std::ostringstream out;
+    out << std::fixed << std::setprecision(2);
+    (out << ... << parts);
+    reasons.push_back(out.str());
+  };
+  if (target > kFarFromData_m) add("the nearest recorded target is ", target, " m away");
+  if (home > kFarFromData_m) add("the nearest recorded home is ", home, " m away");
+  const std::vector<double>& statures = recorded.all.by(Trait::stature);
+  const double shortest = statures.front(), tallest = statures.back();
+  if (query.subject.stature_m < shortest - kStatureMargin_m || query.subject.stature_m > tallest + kStatureMargin_m) {
+    add("stature ", query.subject.stature_m, " m lies outside the recorded ", shortest, " to ", tallest, " m");
+  }
+  return reasons;
+}
+
+/// The motions whose covariance is drawn from, in the order of their ids.
+std::vector<std::shared_ptr<const MotionCode>> varying_codes(const Corpus& corpus, const MotionTable& table,
+                                                             const Query& query, Scheme scheme) {
+  scheme.k = kVaryingMotions;
+  std::vector<std::int64_t> ids;
+  for (const Neighbour& near : nearest_motions(table, query, End::both, scheme)) ids.push_back(near.id);
+  std::sort(ids.begin(), ids.end());
+  std::vector<std::shared_ptr<const MotionCode>> codes;
+  for (const std::int64_t id : ids) codes.push_back(corpus.code(id));
+  return codes;
+}
+
+void draw_variation(const Corpus& corpus, const MotionTable& table, const Query& query, const Scheme& scheme,
+                    const Variation& variation, std::uint64_t draw, Blend& blend) {
+  const auto codes = varying_codes(corpus, table, query, scheme);
+  if (codes.size() < 2) {
+    throw std::invalid_argument("a variation needs at least 2 recorded motions of phase " +
+                                std::string(phase_name(query.phase)) + ", not " + std::to_string(codes.size()));
+  }
+  // Seeds of a person's choice are small numbers; a draw's are far from all of them.
+  const std::uint64_t seed = variation.seed + 0x9E3779B97F4A7C15ULL * draw;
+  const Eigen::VectorXd normal = variation.amount * normal_numbers(seed, static_cast<Eigen::Index>(codes.size()));
+  vary(codes, {normal.data(), codes.size()}, query, blend);
+}
+
+}  // namespace
+
+LearnedStage learn_stage(const Corpus& corpus, const MotionTable& table, const Query& query, const Scheme& scheme,
+                         const std::optional<Variation>& variation, std::uint64_t draw) {
+  const Substitute substitute = substitute_in(table, query.phase);
+  Query asked = query;
+  asked.phase = substitute.phase;
+  if (substitute.backwards) std::swap(asked.home, asked.target);
+  LearnedStage out;
+  out.blend = blend_neighbours(table, asked, scheme, [&](std::int64_t id) { return corpus.code(id); });
+  if (variation) draw_variation(corpus, table, asked, scheme, *variation, draw, out.blend);
+  out.outside = why_outside(table.of(asked.phase), asked);
+  if (substitute.backwards) reverse(out.blend);
+  if (substitute.phase == query.phase) return out;
+  out.borrowed = substitute.phase;
+  out.outside.insert(out.outside.begin(), "no " + std::string(phase_name(query.phase)) +
+                                              " was recorded; postures are those of a " +
+                                              std::string(phase_name(substitute.phase)) +
+                                              (substitute.backwards ? " played backwards" : ""));
+  return out;
+}
+
+}  // namespace reachcast
