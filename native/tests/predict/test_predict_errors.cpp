@@ -48,10 +48,6 @@ TEST(Predict, RefusesBadInputInOneSentenceThatNamesIt) {
   Corpus corpus = Corpus::create(folder / "none.sqlite");
   const auto without = [&] { (void)predict(corpus, subject(1.72), good, body); };
   expect(complaint(without), "holds no motions");
-  Reach reach = made_lift(1.72, {0, 0.42, 0.15}, {0, 0.42, 1.0});
-  reach.phase = Phase::retrieve;
-  corpus.add(std::vector{encode_reach(reach)});
-  expect(complaint(without), "transfer");
 }
 
 TEST(Predict, RefusesPhasesThatCannotFollowOneAnother) {
