@@ -102,6 +102,7 @@ class Motion:
     outside_data: bool = False
     outside_reasons: list[str] = field(default_factory=list)
     corrections: list[str] = field(default_factory=list)
+    ways: list[str] = field(default_factory=lambda: ["deviation"])
 
 
 def predict(corpus: Corpus, subject: Subject, task: Task, body: Body | None = None, *, frame_rate: float = 24.0,

@@ -78,14 +78,21 @@ class Sequences(unittest.TestCase):
         self.assertEqual((hit["mannequin", True], hit["metarig", True]), (0, 0), hit)
         self.assertGreater(hit["mannequin", False] + hit["metarig", False], 0, "else the board was not in the way")
 
-    def test_phases_that_the_corpus_lacks_or_that_cannot_be_are_refused(self) -> None:
+    def test_phases_that_cannot_follow_one_another_are_refused(self) -> None:
         scene = self.scene("mannequin")
         for phases, words in ((("transfer", "reach"), "at rest"), ((), "empty"), (("lift",), "'lift'")):
             with self.assertRaisesRegex(ValueError, words):
                 scene.predict(corpora.recorded_corpus(), phases=phases)
-        with self.assertRaisesRegex(ValueError, "none of phase return"):
-            scene.predict(corpora.large_corpus(), phases=("transfer", "return"))
         self.assertEqual(len(bpy.data.actions), 0)
+
+    def test_a_phase_that_nobody_was_recorded_in_takes_the_published_path_and_says_so(self) -> None:
+        scene = self.scene("mannequin")
+        result = scene.predict(corpora.large_corpus(), start_frame=1, phases=("transfer", "return"))
+        self.assertEqual(result.ways, (("transfer", "deviation"), ("return", "published")))
+        self.assertIn("no return was recorded", "; ".join(result.outside_reasons))
+        seen = self.seen(scene, result)
+        np.testing.assert_allclose(seen.feet, np.broadcast_to(seen.feet[0], seen.feet.shape), atol=EXACT_M)
+        np.testing.assert_allclose(seen.lengths, 1.0, atol=1e-4)
 
 
 class Obstacles(unittest.TestCase):

@@ -6,7 +6,10 @@ import textwrap
 
 import bpy
 
+from . import path_editing
+from .operators.edit_hand_path import REACHCAST_OT_edit_hand_path, REACHCAST_OT_finish_hand_path
 from .operators.predict_motion import REACHCAST_OT_predict_motion
+from .operators.predict_variants import REACHCAST_OT_predict_variants
 from .properties import needs
 
 _LABELS = 0.3  #: part of the panel's width that the words take
@@ -25,7 +28,7 @@ class REACHCAST_PT_lift(_Tab, bpy.types.Panel):
         settings = context.scene.reachcast
         column = self.layout.column(align=True)
         for words, name in (("Rig", "rig"), ("does", "errand"), ("with", "box"), ("from", "home"), ("to", "shelf"),
-                            ("past", "obstacles"), ("as in", "corpus")):
+                            ("coming", "approach"), ("past", "obstacles"), ("as in", "corpus")):
             _sentence_part(column, settings, words, name)
         blocking = [need for need in needs(settings) if need.reason]
         for need in blocking:
@@ -54,6 +57,40 @@ class REACHCAST_PT_subject(_Tab, bpy.types.Panel):
         _sentence_part(column, settings, "Bones", "bone_map")
 
 
+class REACHCAST_PT_hand_path(_Tab, bpy.types.Panel):
+    bl_label = "Hand Path"
+    bl_parent_id = "REACHCAST_PT_lift"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        session = path_editing.active()
+        if session is None:
+            column = self.layout.column(align=True)
+            column.operator(REACHCAST_OT_edit_hand_path.bl_idname, icon="CURVE_BEZCURVE")
+            column.operator(REACHCAST_OT_edit_hand_path.bl_idname, text="Edit Empty Hands Too").all_phases = True
+            return
+        _lines(self.layout, context, f"Move the handles of {', '.join(session.curves.values())} in Edit Mode, or the "
+                                     f"ends: '{session.result.action}' follows.", "CURVE_BEZCURVE")
+        self.layout.operator(REACHCAST_OT_finish_hand_path.bl_idname, icon="CHECKMARK")
+
+
+class REACHCAST_PT_variants(_Tab, bpy.types.Panel):
+    bl_label = "Variants"
+    bl_parent_id = "REACHCAST_PT_lift"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = context.scene.reachcast
+        column = self.layout.column(align=True)
+        for words, name in (("How many", "variants"), ("From seed", "seed"), ("Variation", "variation"),
+                            ("Shown as", "variants_as")):
+            _sentence_part(column, settings, words, name)
+        if settings.variants_as == "GHOSTS":
+            _sentence_part(column, settings, "Spacing", "spacing")
+        column.prop(settings, "spread", text="Draw their spread as a tube")
+        self.layout.operator(REACHCAST_OT_predict_variants.bl_idname, icon="MOD_ARRAY")
+
+
 class REACHCAST_PT_result(_Tab, bpy.types.Panel):
     bl_label = "Last Result"
     bl_parent_id = "REACHCAST_PT_lift"
@@ -73,6 +110,7 @@ class REACHCAST_PT_result(_Tab, bpy.types.Panel):
         for words, name in (("Landing", "landing"), ("Grip", "grip")):
             if (error := action.get(f"reachcast_{name}_error_m")) is not None:
                 _words(column, words, f"{error * 1000.0:.2f} mm off")
+        _words(column, "Hands' path", action["reachcast_ways"].replace(", ", "; "))
         if action["reachcast_outside_data"]:
             why = action["reachcast_outside_reasons"] or "the target"
             _lines(self.layout, context, f"Outside the recorded data, take it with care: {why}", "ERROR")

@@ -61,6 +61,29 @@ class ReachcastSettings(bpy.types.PropertyGroup):
         name="Obstacles", type=bpy.types.Collection,
         description="The collection whose meshes the box and the hands keep clear of, such as the shelf's boards. "
                     "Arms and body are not looked at")
+    approach: bpy.props.EnumProperty(
+        name="Approach", default="FREE", description="From where the hands, or the box in them, come to the shelf",
+        items=(("FREE", "as people do", "As the recorded people did"), ("ABOVE", "from above", ""),
+               ("FRONT", "from the front", "From the side where the person stands"),
+               ("SIDE", "from the side", "From the side where the hands come from")))
+    variants: bpy.props.IntProperty(
+        name="Variants", default=5, min=1, max=1000, soft_max=50, description="How many motions are drawn")
+    seed: bpy.props.IntProperty(
+        name="Seed", default=1, min=0, description="Of the first variant; the others have the numbers after it. The same "
+                                                   "seed gives the same motion on every machine")
+    variation: bpy.props.FloatProperty(
+        name="Variation", default=1.0, min=0.0, max=2.0, subtype="FACTOR",
+        description="How far from the mean: 1 is as far as the recorded people")
+    variants_as: bpy.props.EnumProperty(
+        name="Shown as", default="ACTIONS", description="Where the variants go",
+        items=(("ACTIONS", "Actions", "One Action each on the rig, the first of which is active"),
+               ("GHOSTS", "Ghosts", "Copies of the rig and the box, side by side, that all move at once")))
+    spacing: bpy.props.FloatProperty(
+        name="Spacing", default=1.0, min=0.0, max=100.0, subtype="DISTANCE", unit="LENGTH",
+        description="Between one ghost and the next, to the subject's right; 0 puts them on top of each other")
+    spread: bpy.props.BoolProperty(
+        name="Spread", default=True,
+        description="Draw how far the hands' paths spread, as a tube two standard deviations wide about their mean")
     corpus: bpy.props.StringProperty(
         name="Corpus", subtype="FILE_PATH",
         description="The file of recorded motions to learn from; empty takes the one that ships with the add-on")

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import bpy
 
-from . import corpora, panels, properties
-from .operators import add_mannequin, predict_motion
+from . import corpora, panels, path_editing, properties
+from .operators import add_mannequin, edit_hand_path, predict_motion, predict_variants
 
 CLASSES: tuple[type, ...] = (
     properties.ReachcastSettings,
     predict_motion.REACHCAST_OT_predict_motion,
+    predict_variants.REACHCAST_OT_predict_variants,
+    edit_hand_path.REACHCAST_OT_edit_hand_path,
+    edit_hand_path.REACHCAST_OT_finish_hand_path,
     add_mannequin.REACHCAST_OT_add_mannequin,
     panels.REACHCAST_PT_lift,
     panels.REACHCAST_PT_subject,
+    panels.REACHCAST_PT_hand_path,
+    panels.REACHCAST_PT_variants,
     panels.REACHCAST_PT_result,
 )
 
@@ -26,6 +31,7 @@ def register() -> None:
 
 
 def unregister() -> None:
+    path_editing.forget()
     bpy.types.VIEW3D_MT_armature_add.remove(add_mannequin.draw_menu_entry)
     del bpy.types.WindowManager.reachcast_problem
     del bpy.types.Scene.reachcast

@@ -68,6 +68,18 @@ std::vector<PhaseNeighbour> neighbours(const Motion& motion) {
   return out;
 }
 
+py::list curves(const Motion& motion) {
+  py::list out;
+  for (const auto& control : motion.curves) {
+    if (control) {
+      out.append(points_array(Points(control->begin(), control->end())));
+    } else {
+      out.append(py::none());
+    }
+  }
+  return out;
+}
+
 Phase to_phase(const std::string& name) {
   const std::optional<Phase> phase = find_phase(name);
   if (!phase) throw std::invalid_argument("phase is '" + name + "'; it must be reach, transfer, return or retrieve");
@@ -244,6 +256,9 @@ void bind_results(py::module_& m) {
           },
           "list, one per phase: what the path of the hands comes from: 'deviation' or 'bezier' (learned, in either "
           "form), 'published' (no such phase was recorded), 'given'")
+      .def_property_readonly("curves", &curves,
+                             "list, one per phase: (4, 3) control points of the path of the middle between the hands, "
+                             "body frame, where it is a Bezier curve, else None")
       .def_property_readonly("neighbours", &neighbours, "list of Neighbour, phase by phase, heaviest first")
       .def_property_readonly("outside_data", [](const Motion& motion) { return !motion.outside_data.empty(); })
       .def_readonly("outside_reasons", &Motion::outside_data)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+from typing import Any
+
 import bpy
 
 from ..properties import ERRANDS, core_sex, missing
@@ -21,12 +23,8 @@ class REACHCAST_OT_predict_motion(bpy.types.Operator):
         return reason is None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        settings = context.scene.reachcast
         try:
-            result = predict_motion(
-                settings.rig, settings.shelf, corpus=settings.corpus, home=settings.home, box=settings.box,
-                stature=settings.stature or None, sex=core_sex(settings.sex), bone_map=settings.bone_map or None,
-                phases=ERRANDS[settings.errand], obstacles=meshes_in(settings.obstacles), scene=context.scene)
+            result = predict_motion(**task_of(context))
         except (ValueError, RuntimeError) as error:  # a mistake of the user's; a file that cannot be used
             context.window_manager.reachcast_problem = str(error)
             self.report({"ERROR"}, str(error))
@@ -34,6 +32,18 @@ class REACHCAST_OT_predict_motion(bpy.types.Operator):
         context.window_manager.reachcast_problem = ""
         self.report({"INFO"}, summary(result))
         return {"FINISHED"}
+
+
+def task_of(context: bpy.types.Context) -> dict[str, Any]:
+    """What the panel says, as arguments of `predict_motion`."""
+    settings = context.scene.reachcast
+    task = {"rig": settings.rig, "shelf": settings.shelf, "corpus": settings.corpus, "home": settings.home,
+            "box": settings.box, "stature": settings.stature or None, "sex": core_sex(settings.sex),
+            "bone_map": settings.bone_map or None, "phases": ERRANDS[settings.errand],
+            "obstacles": meshes_in(settings.obstacles), "scene": context.scene}
+    if settings.approach != "FREE":
+        task["approach"] = settings.approach.lower()
+    return task
 
 
 def meshes_in(collection: bpy.types.Collection | None) -> list[bpy.types.Object]:

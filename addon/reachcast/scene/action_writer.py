@@ -43,12 +43,35 @@ def write_action(owner: bpy.types.Object, name: str, channels: Sequence[Channel]
     curves, group_of = _curve_makers(owner, action)
     for channel in channels:
         group = group_of(channel.group)
-        moves = np.any(channel.values != channel.values[0], axis=0)
-        for index, values in enumerate(np.asarray(channel.values, np.float32).T):
+        for index, values in _columns(channel):
             curve = curves.new(channel.data_path, index=index)
             curve.group = group
-            _fill(curve, first_frame, values if moves[index] else values[:1])
+            _fill(curve, first_frame, values)
     return action
+
+
+def rewrite_action(action: bpy.types.Action, channels: Sequence[Channel], first_frame: int) -> None:
+    """Other keys for the channels that `write_action` gave this Action; everything else in it stays."""
+    curves = {(curve.data_path, curve.array_index): curve for curve in curves_of(action)}
+    for channel in channels:
+        for index, values in _columns(channel):
+            curve = curves.get((channel.data_path, index))
+            if curve is None:
+                raise ValueError(f"Action '{action.name}' has lost its channel {channel.data_path}[{index}]; "
+                                 f"predict the motion again")
+            if len(curve.keyframe_points) == len(values):
+                _place(curve, first_frame, values)
+            else:
+                curve.keyframe_points.clear()
+                _fill(curve, first_frame, values)
+    action.update_tag()
+
+
+def _columns(channel: Channel) -> Iterator[tuple[int, Array]]:
+    """(index, keys) of every column: one key for what does not change."""
+    moves = np.any(channel.values != channel.values[0], axis=0)
+    for index, values in enumerate(np.asarray(channel.values, np.float32).T):
+        yield index, values if moves[index] else values[:1]
 
 
 def refuse_unwritable(owner: bpy.types.Object) -> None:
@@ -75,14 +98,18 @@ def curves_of(action: bpy.types.Action) -> Iterator[bpy.types.FCurve]:
 def _fill(curve: bpy.types.FCurve, first_frame: int, values: Array) -> None:
     points = curve.keyframe_points
     points.add(len(values))
-    places = np.empty((len(values), 2), dtype=np.float32)
-    places[:, 0] = _frames(first_frame, len(values))
-    places[:, 1] = values
-    points.foreach_set("co", places.ravel())
     first = points[0]
     for attribute, identifier in _KEY_STYLE:
         if getattr(first, attribute) != identifier:  # new keys have the style of the user's preferences
             points.foreach_set(attribute, _enum_values(attribute, identifier, len(values)))
+    _place(curve, first_frame, values)
+
+
+def _place(curve: bpy.types.FCurve, first_frame: int, values: Array) -> None:
+    places = np.empty((len(values), 2), dtype=np.float32)
+    places[:, 0] = _frames(first_frame, len(values))
+    places[:, 1] = values
+    curve.keyframe_points.foreach_set("co", places.ravel())
     curve.update()
 
 

@@ -3,33 +3,21 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import MappingProxyType, ModuleType
+from types import MappingProxyType
 from typing import Any
 
 import bpy
 import numpy as np
 
-from .. import native
-from ..corpora import default_corpus, opened_corpus
 from ..rigs.bone_map import BoneMap
-from ..rigs.joints import INDEX, JOINTS
-from ..rigs.retarget import EXACT_JOINTS, retarget
 from ..rigs.rotations import Array
-from ..rigs.skeleton import Skeleton
-from .action_writer import refuse_unwritable
-from .movers import moves_bones, moves_object, refuse_moved
-from .read_obstacles import read_obstacles
-from .read_rig import read_rig
-from .read_task import Lift, read_lift, refuse_held_box
-from .transforms import above_matrix, layer_of, refuse_removed
-from .write_motion import box_world_places, write_box_action, write_rig_action
-
-#: How far the posed rig may be from the predicted joints. Single precision keys are a hundred times finer.
-MAX_MISFIT_M = 1e-3
+from .prepare import Prepared, Solved, prepare, solve
+from .read_task import Lift
+from .transforms import above_matrix, layer_of
+from .write_motion import write_box_action, write_rig_action
 
 
 @dataclass(frozen=True)
@@ -58,6 +46,8 @@ class PredictionResult:
     outside_data: bool
     outside_reasons: tuple[str, ...]
     corrections: tuple[str, ...]
+    #: (phase, what its path of the hands comes from: deviation, bezier, published or given), one per phase
+    ways: tuple[tuple[str, str], ...]
     errors: Mapping[str, float]                           #: metres: landing (if placed), grip (if held), pose
 
 
@@ -66,146 +56,61 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
                    stature: float | None = None, sex: str | None = None, age: float | None = None,
                    mass: float | None = None, bone_map: BoneMap | str | Path | None = None,
                    start_frame: int | None = None, scene: bpy.types.Scene | None = None,
-                   phases: Sequence[str] = ("transfer",), obstacles: Iterable[bpy.types.Object] = (), **options: object) -> PredictionResult:
+                   phases: Sequence[str] = ("transfer",), obstacles: Iterable[bpy.types.Object] = (),
+                   **options: object) -> PredictionResult:
     """Predicts how `rig` carries `box` to `shelf` and writes a new Action on the rig, and one on the box if given.
 
     corpus: a path or an opened reachcast_core.Corpus; None takes the one that ships. stature in metres (None: the
-    rig's own height), age in years, mass in kg. phases: any of "reach" (empty hands to the box), "transfer" (from home to
-    the shelf), "return" (hands to the sides) and "retrieve" (back home), in an order that can be performed; the box
+    rig's own height), age in years, mass in kg. phases: any of "reach" (empty hands to the box), "transfer" (from home
+    to the shelf), "return" (hands to the sides) and "retrieve" (back home), in an order that can be performed; the box
     stands where the first loaded phase takes it from. obstacles: mesh objects that the box and the hands keep clear of
-    (option clearance, metres); the rig and the box are none. Objects are taken where they are in the scene's current frame, and the
-    motion starts there or at start_frame. Other options go to reachcast_core.predict. Everything is read and checked
-    first: on ValueError nothing has been written.
+    (option clearance, metres); the rig and the box are none. Objects are taken where they are in the scene's current
+    frame, and the motion starts there or at start_frame. Other options go to reachcast_core.predict: approach="above",
+    "front" or "side"; variation={"seed": 1} for another motion than the mean; k, scheme, duration. Everything is read
+    and checked first: on ValueError nothing has been written.
     """
     scene = scene or bpy.context.scene
-    core, layer = native.core(), layer_of(scene)
-    for item, what in ((rig, "rig"), (shelf, "shelf"), (home, "home"), (box, "box")):
-        refuse_removed(item, what)
-    skeleton = read_rig(rig, bone_map, layer)
-    lift = read_lift(skeleton, shelf, home, box, layer)
-    _refuse_owners(rig, skeleton, box, layer)
-    subject = _subject(core, skeleton, stature, sex, age, mass)
-    surfaces = read_obstacles(skeleton, [item for item in obstacles if item not in {rig, box}], layer)
-    motion = _predict(core, skeleton, lift, corpus, subject,
-                      {"frame_rate": scene.render.fps / scene.render.fps_base, "phases": list(phases),
-                       "obstacles": surfaces, **options})
-    joints = skeleton.to_world(np.asarray(motion.positions, float))
-    pose = retarget(skeleton, joints)
-    places = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
-    errors = _errors(skeleton, lift, motion, pose, joints, places)
+    prepared = prepare(rig, shelf, corpus=corpus, home=home, box=box, stature=stature, sex=sex, age=age, mass=mass,
+                       bone_map=bone_map, phases=phases, obstacles=obstacles, scene=scene, **options)
+    solved = solve(prepared)
     first = scene.frame_current if start_frame is None else int(start_frame)
-    name = f"{rig.name} to {shelf.name}"
+    return write_solved(prepared, solved, rig, box, f"to {shelf.name}", first, layer_of(scene))
+
+
+def write_solved(prepared: Prepared, solved: Solved, rig: bpy.types.Object, box: bpy.types.Object | None, what: str,
+                 first: int, layer: bpy.types.ViewLayer) -> PredictionResult:
+    """New Actions on rig and box, named after them and `what`, whose first key stands at frame `first`."""
     above = above_matrix(box, layer) if box else None
-    action = write_rig_action(rig, skeleton, pose, name, first)
-    box_action = _write_box(box, above, lift, places, f"{box.name} to {shelf.name}", first) if box else None
+    action = write_rig_action(rig, prepared.skeleton, solved.pose, f"{rig.name} {what}", first)
+    box_action = write_box_action(box, above, box_origins(prepared.lift, solved.places),
+                                  box_turns(prepared.lift, solved.places), f"{box.name} {what}", first) if box else None
+    return describe(solved, rig.name, action, box_action, first)
+
+
+def describe(solved: Solved, rig: str, action: bpy.types.Action, box_action: bpy.types.Action | None,
+             first: int) -> PredictionResult:
+    """What was written from this, also as custom properties of the Action."""
+    motion = solved.motion
     result = PredictionResult(
-        rig.name, action.name, box_action.name if box_action else None,
+        rig, action.name, box_action.name if box_action else None,
         MappingProxyType({event: first + frame for event, frame in motion.events.items()}), first,
         tuple(Neighbour(near.id, near.origin, near.mirrored, near.weight, MappingProxyType(dict(near.distances)),
                         near.phase)
               for near in motion.neighbours),
         motion.outside_data, tuple(map(str, motion.outside_reasons)), tuple(map(_said, motion.corrections)),
-        MappingProxyType(errors))
+        tuple(zip((phase for phase, _, _ in motion.phases), motion.ways)), MappingProxyType(dict(solved.errors)))
     _label(action, result)
     return result
 
 
-def _refuse_owners(rig: bpy.types.Object, skeleton: Skeleton, box: bpy.types.Object | None,
-                   layer: bpy.types.ViewLayer) -> None:
-    """ValueError when an Action on the rig or the box cannot be written or would not be all that moves it."""
-    keyed = frozenset(skeleton.bones.names[bone] for bone in skeleton.keyed)
-    refuse_unwritable(rig)
-    refuse_moved(rig, "Rig", box, moves_bones(keyed))
-    if box is not None:
-        refuse_unwritable(box)
-        refuse_moved(box, "Box", rig, moves_object)
-        refuse_held_box(box, layer)
+def box_turns(lift: Lift, places: tuple[Array, Array]) -> Array:
+    """(F, 3, 3) world turns of the box's mesh."""
+    return places[1] * np.array([-1.0, -1.0, 1.0]) if lift.half_turn else places[1]
 
 
-def _corpus(core: ModuleType, corpus: object) -> object:
-    if corpus is None or corpus == "":
-        corpus = default_corpus()
-        if corpus is None:
-            raise ValueError("No corpus is given and none ships with this build of the add-on; choose a corpus file")
-    if isinstance(corpus, (str, os.PathLike)):
-        return opened_corpus(core, bpy.path.abspath(os.fspath(corpus)))
-    if not isinstance(corpus, core.Corpus):
-        raise ValueError(f"The corpus must be a path or an opened corpus, not {corpus!r}")
-    return corpus
-
-
-def _subject(core: ModuleType, skeleton: Skeleton, stature: float | None, sex: str | None, age: float | None,
-             mass: float | None) -> object:
-    for name, value in (("stature", stature), ("age", age), ("mass", mass)):
-        if value is not None and not isinstance(value, (int, float)):
-            raise ValueError(f"The person's {name} must be a number, not {value!r}")
-    return core.Subject(skeleton.height if not stature else float(stature), sex=sex, age=age, mass=mass)
-
-
-def _predict(core: ModuleType, skeleton: Skeleton, lift: Lift, corpus: object, subject: object,
-             options: Mapping[str, object]) -> Any:
-    if tuple(core.JOINTS) != JOINTS:
-        raise ValueError("reachcast_core names other joints than this add-on; build it from the same version")
-    box = lift.box
-    task = core.Task(lift.home, lift.target,
-                     core.Box(box.width, box.depth, box.height, box.handle_height, mass=box.mass,
-                              grip_distance=box.grip_distance),
-                     home_yaw=lift.home_yaw, target_yaw=lift.target_yaw)
-    body = core.Body.from_posture(skeleton.to_body(skeleton.joints), skeleton.height)
-    try:
-        return core.predict(_corpus(core, corpus), subject, task, body, **options)
-    except RuntimeError as error:  # what the native module says of a damaged or busy file, in one sentence
-        raise ValueError(str(error)) from error
-    except TypeError as error:
-        given = ", ".join(f"{name}={value!r}" for name, value in options.items() if name != "obstacles")
-        raise ValueError(f"One of these options has a value of the wrong kind: {given}") from error
-
-
-def _errors(skeleton: Skeleton, lift: Lift, motion: Any, pose: Any, joints: Array,
-            places: tuple[Array, Array]) -> dict[str, float]:
-    """How far the rig's bones, by forward kinematics, are from what was asked: the box from where it is put down, the
-    grips from their handles, the joints from the prediction. ValueError when the rig cannot follow."""
-    reached = pose.joints()
-    misfit = np.linalg.norm(reached - joints, axis=2)[:, EXACT_JOINTS]
-    if (worst := float(misfit.max())) > MAX_MISFIT_M:
-        frame, joint = np.unravel_index(int(misfit.argmax()), misfit.shape)
-        raise ValueError(f"Rig '{skeleton.name}' cannot follow the predicted motion: "
-                         f"{JOINTS[EXACT_JOINTS[joint]]} would be {worst * 1000:.1f} mm off at frame {frame}; "
-                         f"the limit is {MAX_MISFIT_M * 1000:g} mm")
-    origins, turns = places
-    errors = {"pose": worst}
-    ends = {"transfer": lift.target, "retrieve": lift.home}
-    landings = [float(np.linalg.norm(origins[last] - skeleton.to_world(ends[phase])))
-                for phase, _, last in motion.phases if phase in ends]
-    if landings:
-        errors["landing"] = max(landings)
-    held = _held_frames(motion)
-    for word, side in (("left", -0.5), ("right", 0.5)) if len(held) else ():
-        handle = origins + turns @ np.array([side * lift.box.grip_distance, 0.0, lift.box.handle_height])
-        off = float(np.linalg.norm(reached[:, INDEX[f"{word}_grip"]] - handle, axis=1)[held].max())
-        errors["grip"] = max(off, errors.get("grip", 0.0))
-    return errors
-
-
-def _held_frames(motion: Any) -> Array:
-    """Frames (H,) from each grasp to the release that follows it, both included; to the end if none does."""
-    held: list[int] = []
-    begun = None
-    for event, frame in motion.events.items():
-        if event.startswith("grasp"):
-            begun = frame
-        elif event.startswith(("release", "end")) and begun is not None:
-            held.extend(range(begun, frame + 1))
-            begun = None
-    return np.array(held, dtype=int)
-
-
-def _write_box(box: bpy.types.Object, above: Array, lift: Lift, places: tuple[Array, Array], name: str,
-               first: int) -> bpy.types.Action:
-    origins, turns = places
-    if lift.half_turn:
-        turns = turns * np.array([-1.0, -1.0, 1.0])
-    return write_box_action(box, above, origins + turns @ np.array(lift.box.origin_offset), turns, name, first)
+def box_origins(lift: Lift, places: tuple[Array, Array]) -> Array:
+    """(F, 3) world places of the origin of the box's mesh."""
+    return places[0] + box_turns(lift, places) @ np.array(lift.box.origin_offset)
 
 
 def _said(correction: Any) -> str:
@@ -224,6 +129,7 @@ def _label(action: bpy.types.Action, result: PredictionResult) -> None:
     action["reachcast_outside_data"] = result.outside_data
     action["reachcast_neighbours"] = ", ".join(str(near.id) for near in result.neighbours)
     action["reachcast_outside_reasons"] = "; ".join(result.outside_reasons)
+    action["reachcast_ways"] = ", ".join(f"{phase}: {way}" for phase, way in result.ways)
     action["reachcast_corrections"] = "; ".join(result.corrections)
     for name, value in result.errors.items():
         action[f"reachcast_{name}_error_m"] = value

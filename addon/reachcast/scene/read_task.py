@@ -76,6 +76,12 @@ def read_lift(skeleton: Skeleton, shelf: bpy.types.Object, home: bpy.types.Objec
     return Lift(_placed(skeleton, place), _placed(skeleton, target.origin), home_yaw, target_yaw, shape, half_turn)
 
 
+def place_of(skeleton: Skeleton, item: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> tuple[Array, float]:
+    """Where an Empty puts the middle of the box's base, body frame, and its turn there, in (-pi/2, pi/2]."""
+    place = placement(item, layer)
+    return _placed(skeleton, place.origin), _half_turns(_yaw(skeleton, place.rotation))[0]
+
+
 def read_box(box: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> BoxShape:
     """Size and handles of a box mesh from the bounds of its own vertices in its own axes; ValueError when it cannot be
     carried. What modifiers make of the mesh is not counted: hands hold the box as it was modelled."""

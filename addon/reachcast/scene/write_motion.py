@@ -20,7 +20,12 @@ _ROTATION_PATHS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_
 
 def write_rig_action(rig: bpy.types.Object, skeleton: Skeleton, pose: Any, name: str,
                      first_frame: int) -> bpy.types.Action:
-    """A new Action on `rig` of a reachcast_core.RigPose: a rotation per keyed bone and frame and the pelvis's place.
+    """A new Action on `rig` of a reachcast_core.RigPose: see `rig_channels`."""
+    return write_action(rig, name, rig_channels(rig, skeleton, pose), first_frame)
+
+
+def rig_channels(rig: bpy.types.Object, skeleton: Skeleton, pose: Any) -> list[Channel]:
+    """A rotation per keyed bone and frame and the pelvis's place.
 
     A keyed bone that is posed with a scale or an offset of its own also gets one key that takes it to none.
     """
@@ -39,7 +44,7 @@ def write_rig_action(rig: bpy.types.Object, skeleton: Skeleton, pose: Any, name:
                                 pose.rotation_values(bone, mode), bone_name))
         if pose_bone.scale != _UNSCALED:
             channels.append(Channel(path + "scale", np.ones((1, 3)), bone_name))
-    return write_action(rig, name, channels, first_frame)
+    return channels
 
 
 def _pelvis_location(rig: bpy.types.Object, skeleton: Skeleton, pose: Any) -> Array:
@@ -56,19 +61,23 @@ def _pelvis_location(rig: bpy.types.Object, skeleton: Skeleton, pose: Any) -> Ar
 
 def write_box_action(box: bpy.types.Object, above: Array, origins: Array, rotations: Array, name: str,
                      first_frame: int) -> bpy.types.Action:
-    """A new Action on `box`: its origin (F, 3) and rotation (F, 3, 3) in the world, in its own rotation mode.
+    """A new Action on `box`: see `box_channels`."""
+    return write_action(box, name, box_channels(box, above, origins, rotations), first_frame)
+
+
+def box_channels(box: bpy.types.Object, above: Array, origins: Array, rotations: Array) -> list[Channel]:
+    """The box's origin (F, 3) and rotation (F, 3, 3) in the world, in its own rotation mode.
 
     above (4, 4): `transforms.above_matrix` of the box, of even scale.
     """
     scale = np.cbrt(np.linalg.det(above[:3, :3]))
     turned = above[:3, :3] / scale
     places = (origins - above[:3, 3]) @ turned / scale
-    channels = [
+    return [
         Channel("location", places, "Object Transforms"),
         Channel(_ROTATION_PATHS.get(box.rotation_mode, "rotation_euler"),
                 native.core().rotation_values(turned.T @ rotations, box.rotation_mode), "Object Transforms"),
     ]
-    return write_action(box, name, channels, first_frame)
 
 
 def box_world_places(skeleton: Skeleton, positions: Array, quaternions: Array) -> tuple[Array, Array]:

@@ -102,10 +102,9 @@ LearnedStage learn_stage(const Corpus& corpus, const MotionTable& table, const Q
   if (substitute.backwards) reverse(out.blend);
   if (substitute.phase == query.phase) return out;
   out.borrowed = substitute.phase;
-  out.outside.insert(out.outside.begin(), "no " + std::string(phase_name(query.phase)) +
-                                              " was recorded; postures are those of a " +
-                                              std::string(phase_name(substitute.phase)) +
-                                              (substitute.backwards ? " played backwards" : ""));
+  out.outside.insert(out.outside.begin(),
+                     "no " + std::string(phase_name(query.phase)) + " was recorded; postures are those of a " +
+                         std::string(phase_name(substitute.phase)) + (substitute.backwards ? " played backwards" : ""));
   return out;
 }
 

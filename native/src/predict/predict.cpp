@@ -128,6 +128,7 @@ std::optional<Failure> perform(const Performance& performance, double frame_rate
     unbalanced.amount_m = std::max(unbalanced.amount_m, report.unbalanced_m);
     unbalanced.frames += report.unbalanced_m > kUnbalanced_m ? 1 : 0;
   }
+  motion.curves = performance.curves();
   motion.corrections.clear();
   if (performance.raised_m() > 1e-3)
     motion.corrections.push_back({"edge", performance.raised_m(), 0.0, carried_frames(motion.plan)});

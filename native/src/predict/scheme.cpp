@@ -110,8 +110,7 @@ std::vector<Scheme> all_schemes() {
       schemes.back().bandwidth = bandwidth;
     }
   }
-  for (const auto& [bandwidth, ridge] :
-       {std::pair{0.25, 0.1}, {0.5, 0.1}, {0.5, 1.0}, {1.0, 1.0}, {1.0, 10.0}}) {
+  for (const auto& [bandwidth, ridge] : {std::pair{0.25, 0.1}, {0.5, 0.1}, {0.5, 1.0}, {1.0, 1.0}, {1.0, 10.0}}) {
     distances({stature}, 20, Smoother::linear);
     schemes.back().bandwidth = bandwidth;
     schemes.back().ridge = ridge;

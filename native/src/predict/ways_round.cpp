@@ -126,6 +126,17 @@ Vec3 Performance::point_of(const Act& act, const Vec3& from, const Vec3& to, dou
   return shaped_point_at(*path, from, to, act.shape, towards_person(from, to), t);
 }
 
+std::vector<std::optional<std::array<Vec3, 4>>> Performance::curves() const {
+  std::vector<std::optional<std::array<Vec3, 4>>> out;
+  for (const Act& act : acts_) {
+    const auto* curve = std::get_if<AxisCurve>(&act.way.way);
+    out.push_back(curve
+                      ? std::optional(control_between(*curve, hold_point(act.hands.first), hold_point(act.hands.last)))
+                      : std::nullopt);
+  }
+  return out;
+}
+
 double Performance::bent_m() const {
   double most = 0.0;
   for (std::size_t i = 0; i < acts_.size(); ++i) {

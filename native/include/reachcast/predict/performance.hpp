@@ -3,6 +3,8 @@
 /// and the posture that holds on to them. Moments are frames with fractions.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "reachcast/motion/encode.hpp"
@@ -47,8 +49,13 @@ class Performance {
   /// Throws std::invalid_argument when the object would stand in an obstacle, or none is left for a stage.
   std::vector<std::size_t> go_round(const Obstacles& obstacles, double clearance_m,
                                     const std::vector<std::size_t>& first_manners);
-  /// In how many frames the object or the hands come nearer than `clearance_m` to an obstacle on a way that the user gave.
+  /// In how many frames the object or the hands come nearer than `clearance_m` to an obstacle on a way that the user
+  /// gave.
   [[nodiscard]] std::size_t frames_touching(const Obstacles& obstacles, double clearance_m) const;
+
+  /// Control points of the hold point's path in each stage whose way is a Bezier curve, bent as it is; edges, which
+  /// raise the object, left out.
+  [[nodiscard]] std::vector<std::optional<std::array<Vec3, 4>>> curves() const;
 
   /// How far the object's path is raised over edges at most, and how far a path is bent round obstacles.
   [[nodiscard]] double raised_m() const;
@@ -122,7 +129,7 @@ class Performance {
   Holder holder_;
   std::vector<Act> acts_;
   const std::vector<StageWay>& ways_;  ///< as they were before any bending
-  double last_opening_m_ = 0.0;  ///< after the object has been let go and nothing follows
+  double last_opening_m_ = 0.0;        ///< after the object has been let go and nothing follows
 };
 
 }  // namespace reachcast

@@ -2,8 +2,10 @@
 /// Subject + Task + corpus -> neighbours -> mean MotionCode -> Motion on this body (Faraway 2004, sections 3.3-5).
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,7 +61,9 @@ struct Motion {
   Plan plan;
   std::vector<PhaseNeighbours> neighbours;  ///< one per phase
   std::vector<WayForm> ways;                ///< one per phase: what its path of the hands comes from
-  std::vector<std::string> outside_data;    ///< why the task lies outside the corpus; empty when it lies inside
+  /// One per phase: control points of the hold point's path, body frame, where it is a Bezier curve.
+  std::vector<std::optional<std::array<Vec3, 4>>> curves;
+  std::vector<std::string> outside_data;  ///< why the task lies outside the corpus; empty when it lies inside
   std::vector<Correction> corrections;
 };
 

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Copies of a rig, of what it wears and of its box, that do another motion beside it."""
+from __future__ import annotations
+
+import itertools
+
+import bpy
+
+from .predict_action import PredictionResult, box_origins, box_turns, describe
+from .prepare import Prepared, Solved
+from .transforms import above_matrix
+from .write_motion import write_box_action, write_rig_action
+
+
+def add_ghost(prepared: Prepared, solved: Solved, rig: bpy.types.Object, box: bpy.types.Object | None, what: str,
+              first: int, aside: float, collection: bpy.types.Collection,
+              layer: bpy.types.ViewLayer) -> PredictionResult:
+    """A copy of rig and box, `aside` metres to the subject's right, with Actions that begin at frame `first`."""
+    offset = aside * prepared.skeleton.axes[0]
+    copy = _copied(rig, collection)
+    for worn in _worn_by(rig):
+        _dress(_copied(worn, collection), rig, copy)
+    matrix = rig.matrix_world.copy()
+    matrix.translation = matrix.translation + type(matrix.translation)(offset)
+    copy.matrix_world = matrix
+    action = write_rig_action(copy, prepared.skeleton, solved.pose, f"{rig.name} {what}", first)
+    box_action = None
+    if box is not None:
+        carried, lift = _copied(box, collection), prepared.lift
+        box_action = write_box_action(carried, above_matrix(box, layer), box_origins(lift, solved.places) + offset,
+                                      box_turns(lift, solved.places), f"{box.name} {what}", first)
+    return describe(solved, copy.name, action, box_action, first)
+
+
+def _copied(item: bpy.types.Object, collection: bpy.types.Collection) -> bpy.types.Object:
+    copy = item.copy()
+    copy.name = _free_name(f"{item.name} ghost")
+    collection.objects.link(copy)
+    return copy
+
+
+def _free_name(name: str) -> str:
+    """A name that is given twice would be taken from the object that has it."""
+    return next(free for free in (f"{name} {number}" for number in itertools.count(1)) if free not in bpy.data.objects)
+
+
+def _worn_by(rig: bpy.types.Object) -> list[bpy.types.Object]:
+    """Meshes that the rig moves: its children and those that it deforms."""
+    deformed = (item for item in bpy.data.objects
+                if any(modifier.type == "ARMATURE" and modifier.object == rig for modifier in item.modifiers))
+    return list(dict.fromkeys([item for item in rig.children if item.type == "MESH"] + list(deformed)))
+
+
+def _dress(worn: bpy.types.Object, rig: bpy.types.Object, copy: bpy.types.Object) -> None:
+    if worn.parent == rig:
+        inverse = worn.matrix_parent_inverse.copy()
+        worn.parent = copy
+        worn.matrix_parent_inverse = inverse
+    for modifier in worn.modifiers:
+        if modifier.type == "ARMATURE" and modifier.object == rig:
+            modifier.object = copy
