@@ -121,10 +121,11 @@ def story(options: argparse.Namespace) -> Iterator[None]:
     picture(options.out / "panel_problem.png")
 
 
-def player(steps: Iterator[None]) -> Callable[[], float]:
+def player(steps: Iterator[float | None]) -> Callable[[], float]:
+    """A timer that takes one step after another; a step may yield how many seconds to wait, else PAUSE_S."""
     def advance() -> float:
         try:
-            next(steps)
+            pause = next(steps)
         except StopIteration:
             print("1 passed, 0 failed, 0 skipped", flush=True)
             os._exit(0)  # a quit from a timer asks whether to save
@@ -132,7 +133,7 @@ def player(steps: Iterator[None]) -> Callable[[], float]:
             traceback.print_exc()
             print("0 passed, 1 failed, 0 skipped", flush=True)
             os._exit(1)
-        return PAUSE_S
+        return PAUSE_S if pause is None else pause
     return advance
 
 
