@@ -126,26 +126,31 @@ recorded_corpus() {
   echo "$file"
 }
 
-window_test() {
-  local status=0 corpus
-  begin "window: the panel in a real window"
+window_tests() {
+  local status corpus file part
+  begin "window: panels in a real window"
   corpus=$(recorded_corpus) || { count window 0 1 0; return; }
-  run window timeout 300 xvfb-run -a -s "-screen 0 1280x800x24" blender --factory-startup --enable-event-simulate \
-    --window-geometry 0 0 1280 800 --python blender_tests/test_panel_window.py -- --out "$LOGS" \
-    ${corpus:+--corpus "$corpus"} || status=$?
-  count_last_line window "$status"
+  for file in blender_tests/test_*_window.py; do
+    part=$(basename "$file" .py) status=0
+    run "$part" timeout 300 xvfb-run -a -s "-screen 0 1280x900x24" blender --factory-startup --enable-event-simulate \
+      --window-geometry 0 0 1280 800 --python "$file" -- --out "$LOGS" ${corpus:+--corpus "$corpus"} || status=$?
+    count_last_line "$part" "$status"
+  done
 }
 
 bench_test() {
-  begin "bench: prediction and keys against nla.bake"
-  if ! run bench blender -b --factory-startup --python-exit-code 1 --python blender_tests/bench_bake.py; then
-    broken bench
-  elif grep -q '^skipped: ' "$LOGS/bench.log"; then
-    count bench 0 0 1
-  else
-    grep 'ratio' "$LOGS/bench.log"
-    count bench 1 0 0
-  fi
+  local name
+  for name in bench_bake bench_path; do
+    begin "bench: $name"
+    if ! run "$name" blender -b --factory-startup --python-exit-code 1 --python "blender_tests/$name.py"; then
+      broken "$name"
+    elif grep -q '^skipped: ' "$LOGS/$name.log"; then
+      count "$name" 0 0 1
+    else
+      grep -E 'ratio|a second' "$LOGS/$name.log"
+      count "$name" 1 0 0
+    fi
+  done
 }
 
 # The main job, small: its files and numbers for both rigs, then what it does with a shelf that nobody reaches.
@@ -178,8 +183,8 @@ main() {
     case $part in
       native) native_tests native release ;;
       sanitized) native_tests sanitized asan-ubsan ;;
-      python | blender) "${part}_tests" ;;
-      window | bench | lift) "${part}_test" ;;
+      python | blender | window) "${part}_tests" ;;
+      bench | lift) "${part}_test" ;;
       *) fail "run.sh: unknown part '$part'" ;;
     esac
   done

@@ -3,7 +3,7 @@
 
     blender -b --factory-startup --python-exit-code 1 --python blender_tests/runner.py -- [pattern]
 
-`pattern` selects tests whose dotted name contains it. Files that open a window (test_panel_window.py) or that need
+`pattern` selects tests whose dotted name contains it. Files that open a window (test_*_window.py) or that need
 pytest are not run here. Every test begins from a clean factory scene with the add-on enabled.
 """
 from __future__ import annotations
@@ -20,7 +20,7 @@ import bpy
 
 HERE = Path(__file__).resolve().parent
 ADDON = "reachcast"
-NOT_HERE = {"test_panel_window.py"}
+NOT_HERE = "_window.py"  #: how the names of files end that open a window
 
 
 class CleanSceneResult(unittest.TestResult):
@@ -85,7 +85,7 @@ def main() -> int:
     sys.dont_write_bytecode = True
     sys.path[:0] = [os.fspath(HERE.parent / "addon"), os.fspath(HERE)]
     names = [path.stem for path in sorted(HERE.glob("test_*.py"))
-             if path.name not in NOT_HERE and not needs_pytest(path)]
+             if not path.name.endswith(NOT_HERE) and not needs_pytest(path)]
     suite = unittest.defaultTestLoader.loadTestsFromNames(names)
     chosen = [test for test in tests_in(suite) if not pattern or pattern[0] in test.id()]
     result = CleanSceneResult()
