@@ -41,6 +41,7 @@ constexpr double kLeanBack = 0.15;     // sine of a lean that costs as much as t
 constexpr double kBarrier_rad = 0.07;  // how far beyond its range a joint costs as much as a whole half range
 constexpr double kFootFront = 0.072;   // of stature: the balls ahead of the ankles
 constexpr double kHeel_m = 0.03;
+constexpr double kMiddle = 0.4;  // where between heel and ball people like their weight
 constexpr double kGazeScale_rad = 0.35, kHoldScale_m = 0.01, kInTheWay_m = 0.02;
 constexpr Vec3 kHalfBox(0.18, 0.14, 0.12);  // task.hpp: 0.36 x 0.28 x 0.24 m, handles half way up
 
@@ -134,7 +135,7 @@ JointAngles joint_angles(const Pose& pose) {
 Effort::Effort(const Person& person, const PoseModel& model, const EffortWeights& weights)
     : model_(model), weights_(weights), strength_(person.strength), flexibility_(person.flexibility) {}
 
-Residuals Effort::residuals(const Unknowns& x, const Holding& holding) const {
+Residuals Effort::residuals(const Unknowns& x, const Holding& holding, const Habit& habit) const {
   const Pose pose = model_.pose(x, holding.anchors, holding.load);
   const Posture& p = pose.posture;
   const EffortWeights& w = weights_;
@@ -181,7 +182,7 @@ Residuals Effort::residuals(const Unknowns& x, const Holding& holding) const {
 
   const Vec3 centre = centre_of_mass(p, model_.body_mass_kg(), holding.load);
   const double front = kFootFront * model_.body().stature_m();
-  const double ahead = (centre.y - 0.5 * (front - kHeel_m)) / (0.5 * (front + kHeel_m));
+  const double ahead = (centre.y - kMiddle * (front - kHeel_m)) / (0.5 * (front + kHeel_m));
   const double aside = centre.x / std::abs(holding.anchors.ankle[1].x);
   for (const double off : {ahead, aside}) {
     write.add(0.6 * w.balance * off);
@@ -194,7 +195,7 @@ Residuals Effort::residuals(const Unknowns& x, const Holding& holding) const {
   }
   write.add(pose.held.trunk_shift_m / kHoldScale_m);
   if (holding.box) add_box_depths(p, *holding.box, write);
-  for (Eigen::Index i = 0; i < kUnknowns; ++i) out[kResiduals - kUnknowns + i] = 0.03 * x[i];
+  out.tail<kUnknowns>() = habit.weight * (x - habit.towards);
   return out;
 }
 

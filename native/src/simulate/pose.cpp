@@ -146,7 +146,8 @@ std::array<LimbPlane, kLimbCount> PoseModel::limb_planes(const Unknowns& x, cons
 
 Pose PoseModel::pose(const Unknowns& x, const Anchors& anchors, const Load& load) const {
   const Vec3 ankles = middle(anchors.ankle[0], anchors.ankle[1]);
-  Decoded decoded;
+  Pose out;
+  Decoded& decoded = out.decoded;
   const double pitch = at(x, Unknown::hand_pitch), inward = at(x, Unknown::hand_inward);
   const double yaw = facing_yaw(anchors);
   for (const std::size_t side : {0u, 1u}) {
@@ -159,7 +160,6 @@ Pose PoseModel::pose(const Unknowns& x, const Anchors& anchors, const Load& load
   const Vec3 shoulder = shoulder_in_chest(x, false);
   const Spine chain = spine(x, ankles, wrists, shoulder);
 
-  Pose out;
   out.frames.pelvis = turn_between(hips_to_waist_, chain.waist - chain.hips, level_right(at(x, Unknown::pelvis_yaw)));
   out.frames.chest = turn_between(Vec3(0.0, shoulder.y, shoulder.z), chain.shoulders - chain.waist,
                                   level_right(at(x, Unknown::chest_yaw)));
@@ -173,9 +173,12 @@ Pose PoseModel::pose(const Unknowns& x, const Anchors& anchors, const Load& load
   trunk[index(right_shoulder)] = chain.waist + out.frames.chest * shoulder;
   out.frames.head = place_head(x, out.frames.chest, trunk);
   decoded.planes = limb_planes(x, decoded, out.frames, anchors);
-  const Stance stance{Vec3(0.0), Vec3(0.0), decoded.wrist_from_grip};
-  out.posture = holder_.hold(decoded, stance, anchors, load, out.held);
+  out.posture = held(decoded, anchors, load, out.held);
   return out;
+}
+
+Posture PoseModel::held(const Decoded& decoded, const Anchors& anchors, const Load& load, HoldReport& report) const {
+  return holder_.hold(decoded, {Vec3(0.0), Vec3(0.0), decoded.wrist_from_grip}, anchors, load, report);
 }
 
 }  // namespace reachcast::simulate

@@ -11,9 +11,9 @@ namespace reachcast::simulate {
 namespace {
 
 constexpr double kDifference = 1e-5;
-constexpr double kGain = 1e-7;
+constexpr double kGain = 1e-8;
 constexpr double kMostStep = 1.0;  // of any unknown, in one step
-constexpr int kStepsAfar = 80, kStepsNear = 40;
+constexpr int kStepsAfar = 120, kStepsNear = 40;
 
 /// Upright, half bent and deep: stretches of the chain, the rest at ease.
 constexpr std::array<std::array<double, 4>, 3> kStarts{
@@ -84,8 +84,8 @@ Solution least_effort(const Effort& effort, const Holding& holding) {
   return best;
 }
 
-Solution least_effort(const Effort& effort, const Holding& holding, const Unknowns& start) {
-  return least_squares([&](const Unknowns& x) { return effort.residuals(x, holding); }, start, kStepsNear);
+Solution least_effort(const Effort& effort, const Holding& holding, const Unknowns& start, const Habit& habit) {
+  return least_squares([&](const Unknowns& x) { return effort.residuals(x, holding, habit); }, start, kStepsNear);
 }
 
 }  // namespace reachcast::simulate

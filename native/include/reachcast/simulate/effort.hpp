@@ -25,6 +25,13 @@ struct Holding {
   std::optional<BoxPlace> box;
 };
 
+/// Where the unknowns are drawn to, and how strongly: weakly to an upright nothing, so that what costs no effort is
+/// settled, or to the smooth motion that a posture is a moment of.
+struct Habit {
+  Unknowns towards{Unknowns::Zero()};
+  double weight = 0.03;
+};
+
 /// How much each kind of effort counts; multiplies residuals, before they are squared.
 struct EffortWeights {
   double back = 1.0, knees = 1.0, shoulders = 1.0;  ///< moments relative to strength
@@ -67,7 +74,7 @@ class Effort {
   Effort(const Person& person, const PoseModel& model, const EffortWeights& weights);
   explicit Effort(const Person& person, const PoseModel& model) : Effort(person, model, weights_of(person)) {}
 
-  [[nodiscard]] Residuals residuals(const Unknowns& x, const Holding& holding) const;
+  [[nodiscard]] Residuals residuals(const Unknowns& x, const Holding& holding, const Habit& habit = {}) const;
   [[nodiscard]] double cost(const Unknowns& x, const Holding& holding) const {
     return residuals(x, holding).squaredNorm();
   }

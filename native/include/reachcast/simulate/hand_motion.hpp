@@ -16,8 +16,8 @@ namespace reachcast::simulate {
 /// replicates of their largest distance is 6.7 cm, that of a path from the mean model 8.0 cm, of which 1.7 cm are not
 /// the model's; and that correlations are mild and no component is negligible. So offsets vary alike in all directions,
 /// with the spread that gives those medians.
-inline constexpr double kWithinPeople = 0.0815;
-inline constexpr double kBetweenPeople = 0.101;
+inline constexpr double kWithinPeople = 0.0929;
+inline constexpr double kBetweenPeople = 0.1207;
 
 /// The hold point's path: the published mean of the 2007 paper with the person's habit and a draw of this motion, and
 /// the published speed profile with a draw. Deterministic.

@@ -44,6 +44,7 @@ struct Frames {
 };
 
 struct Pose {
+  Decoded decoded;  ///< before the limbs are spanned
   Posture posture{};
   Frames frames;
   HoldReport held;  ///< trunk_shift_m: what was still needed to hold on where the body is turned to the side
@@ -57,6 +58,10 @@ class PoseModel {
   /// anchors: both grips at least 5 cm ahead of or beside the ankles; feet flat. Where nobody of this body could hold
   /// them, pose.held.shortfall_m > 0. Never throws for finite input.
   [[nodiscard]] Pose pose(const Unknowns& x, const Anchors& anchors, const Load& load) const;
+
+  /// A body that is given; limbs spanned, hands and feet put where they must be.
+  [[nodiscard]] Posture held(const Decoded& decoded, const Anchors& anchors, const Load& load,
+                             HoldReport& report) const;
 
   /// Feet as the body stands.
   [[nodiscard]] Anchors anchors(const std::array<Vec3, 2>& grips) const;

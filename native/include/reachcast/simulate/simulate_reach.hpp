@@ -11,15 +11,14 @@
 
 namespace reachcast::simulate {
 
-inline constexpr std::size_t kMoments = 10;  ///< at which least effort is sought; splines between them
+inline constexpr std::size_t kMoments = 10;  ///< shares of the path at which least effort is sought
 inline constexpr std::size_t kFrames = 25;
 
 struct Simulated {
   Reach reach;
-  double least_cost = 0.0, most_cost = 0.0;  ///< of the moments
-  double held_m = 0.0;                       ///< how far the trunk had to be moved for the hands to hold on
-  double unbalanced_m = 0.0;                 ///< how far the weight lies beyond the feet
-  double shortfall_m = 0.0;                  ///< > 0: somewhere the hands could not be held; the motion is of no use
+  double held_m = 0.0;        ///< how far the trunk had to be moved for the hands to hold on
+  double unbalanced_m = 0.0;  ///< how far the weight lies beyond the feet
+  double shortfall_m = 0.0;   ///< > 0: somewhere the hands could not be held; the motion is of no use
 };
 
 /// Deterministic. The reach is in the body frame; its hands, feet and segment lengths are exact at all frames.

@@ -21,12 +21,13 @@ struct Solution {
   int steps = 0;
 };
 
-/// From `start`; ends when a step promises or brings less than 1e-7 of the cost, or after `most_steps`.
+/// From `start`; ends when a step promises or brings less than 1e-8 of the cost, or after `most_steps`.
 [[nodiscard]] Solution least_squares(const ResidualFunction& residuals, const Unknowns& start, int most_steps);
 
 /// Of several starts the cheapest end; ties go to the first.
 [[nodiscard]] Solution least_effort(const Effort& effort, const Holding& holding);
 /// From where a neighbouring moment's solution is.
-[[nodiscard]] Solution least_effort(const Effort& effort, const Holding& holding, const Unknowns& start);
+[[nodiscard]] Solution least_effort(const Effort& effort, const Holding& holding, const Unknowns& start,
+                                    const Habit& habit = {});
 
 }  // namespace reachcast::simulate
