@@ -97,6 +97,7 @@ class PathSession:
 
     def _move_places(self, control: Mapping[int, Array], moved: Iterable[int], layer: bpy.types.ViewLayer) -> None:
         """An end of a curve that was moved takes the Empty there with it."""
+        taken = False
         for number in sorted(moved):
             for place, at in zip(self.ends[number], (0, 3)):
                 way = control[number][at] - self.seen[number][at]
@@ -107,7 +108,9 @@ class PathSession:
                 matrix = item.matrix_world.copy()
                 matrix.translation = matrix.translation + type(matrix.translation)(way)
                 item.matrix_world = matrix
-        layer.update()
+                taken = True
+        if taken:
+            layer.update()
 
     def _lift(self, layer: bpy.types.ViewLayer) -> Lift:
         lift, skeleton = self.prepared.lift, self.prepared.skeleton
