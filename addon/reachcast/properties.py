@@ -9,7 +9,7 @@ import bpy
 
 from . import native
 from .corpora import default_corpus
-from .rigs.bone_map import detect
+from .rigs.rig_presets import detect
 
 #: The sentence of the last prediction that failed. On the WindowManager: neither saved nor undone.
 PROBLEM = bpy.props.StringProperty(name="Problem", options={"HIDDEN", "SKIP_SAVE"})
@@ -89,7 +89,7 @@ class ReachcastSettings(bpy.types.PropertyGroup):
         description="The file of recorded motions to learn from; empty takes the one that ships with the add-on")
     bone_map: bpy.props.StringProperty(
         name="Bone Map", subtype="FILE_PATH",
-        description="A JSON file that says which bone is which; empty recognises the mannequin and Rigify's metarig")
+        description="A JSON file that says which bone is which; empty recognises the rigs of many tools by their names")
     stature: bpy.props.FloatProperty(
         name="Stature", min=0.0, max=2.6, default=0.0, subtype="DISTANCE", unit="LENGTH",
         description="Height of the person to move like; 0 takes the rig's own")
