@@ -8,7 +8,9 @@ import bpy
 
 from . import path_editing
 from .operators.edit_hand_path import REACHCAST_OT_edit_hand_path, REACHCAST_OT_finish_hand_path
+from .operators.predict_family import REACHCAST_OT_choose_percentile, REACHCAST_OT_predict_family
 from .operators.predict_motion import REACHCAST_OT_predict_motion
+from .operators.predict_targets import REACHCAST_OT_predict_targets
 from .operators.predict_variants import REACHCAST_OT_predict_variants
 from .properties import needs
 
@@ -54,6 +56,11 @@ class REACHCAST_PT_subject(_Tab, bpy.types.Panel):
         if settings.stature == 0.0:
             _words(column, "", "the rig's own")
         _sentence_part(column, settings, "Sex", "sex")
+        split = column.split(factor=_LABELS)
+        split.label(text="Percentile")
+        row = split.row(align=True)
+        for percentile in (5, 50, 95):
+            row.operator(REACHCAST_OT_choose_percentile.bl_idname, text=f"{percentile}th").percentile = percentile
         _sentence_part(column, settings, "Bones", "bone_map")
 
 
@@ -89,6 +96,17 @@ class REACHCAST_PT_variants(_Tab, bpy.types.Panel):
             _sentence_part(column, settings, "Spacing", "spacing")
         column.prop(settings, "spread", text="Draw their spread as a tube")
         self.layout.operator(REACHCAST_OT_predict_variants.bl_idname, icon="MOD_ARRAY")
+
+
+class REACHCAST_PT_others(_Tab, bpy.types.Panel):
+    bl_label = "Several at Once"
+    bl_parent_id = "REACHCAST_PT_lift"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column = self.layout.column(align=True)
+        column.operator(REACHCAST_OT_predict_family.bl_idname, icon="COMMUNITY")
+        column.operator(REACHCAST_OT_predict_targets.bl_idname, icon="EMPTY_AXIS")
 
 
 class REACHCAST_PT_result(_Tab, bpy.types.Panel):

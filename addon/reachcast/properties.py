@@ -121,9 +121,9 @@ def needs(settings: ReachcastSettings) -> list[Need]:
     ]
 
 
-def missing(settings: ReachcastSettings) -> str | None:
-    """The first reason why Predict Motion cannot run, or None."""
-    return next((need.reason for need in needs(settings) if need.reason), None)
+def missing(settings: ReachcastSettings, without: tuple[str, ...] = ()) -> str | None:
+    """The first reason why Predict Motion cannot run, or None; needs named in `without` are not looked at."""
+    return next((need.reason for need in needs(settings) if need.reason and need.name not in without), None)
 
 
 def _rig_reason(settings: ReachcastSettings) -> str | None:
