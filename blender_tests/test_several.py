@@ -15,6 +15,7 @@ from reachcast.rigs.joints import INDEX
 from reachcast.scene.family import predict_family
 from reachcast.scene.measure import foot_slip, sample
 from reachcast.scene.read_rig import read_rig
+from reachcast.scene.publish import MARKED
 from reachcast.scene.several_targets import predict_to_targets
 
 PROMISED_M = 1e-3
@@ -147,6 +148,32 @@ class Buttons(Several):
     def test_family(self) -> None:
         self.assertEqual(bpy.ops.reachcast.predict_family(spacing=1.0), {"FINISHED"})
         self.assertEqual(len([item for item in bpy.data.objects if item.type == "ARMATURE"]), 1 + len(FAMILY))
+
+    def test_markers_stand_at_the_events_and_give_way_to_new_ones(self) -> None:
+        scene = bpy.context.scene
+        scene.timeline_markers.new("mine", frame=3)
+        for first in (1, 31):
+            scene.frame_set(first)
+            self.assertEqual(bpy.ops.reachcast.predict_motion(), {"FINISHED"})
+            action = self.scene.rig.animation_data.action
+            wanted = {f"Worker: {event.replace('_', ' ')}": action[event] for event in MARKED}
+            self.assertEqual({marker.name: marker.frame for marker in scene.timeline_markers}, {"mine": 3, **wanted})
+            self.assertEqual({f"Worker: {marker.name}": marker.frame for marker in action.pose_markers}, wanted)
+            self.assertGreaterEqual(min(wanted.values()), first)
+        scene.reachcast.markers = False
+        scene.frame_set(1)
+        self.assertEqual(bpy.ops.reachcast.predict_motion(), {"FINISHED"})
+        self.assertFalse(self.scene.rig.animation_data.action.pose_markers)
+
+    def test_assets(self) -> None:
+        self.assertEqual(bpy.ops.reachcast.predict_motion(), {"FINISHED"})
+        self.assertIsNone(self.scene.rig.animation_data.action.asset_data)
+        bpy.context.scene.reachcast.assets = True
+        self.assertEqual(bpy.ops.reachcast.predict_motion(), {"FINISHED"})
+        for item in (self.scene.rig, self.scene.box):
+            data = item.animation_data.action.asset_data
+            self.assertIn("Predicted by Reachcast from", data.description)
+            self.assertEqual([tag.name for tag in data.tags], ["transfer"])
 
     def test_targets_need_no_shelf_but_a_selection(self) -> None:
         bpy.context.scene.reachcast.shelf = None

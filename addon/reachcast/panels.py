@@ -57,11 +57,23 @@ class REACHCAST_PT_subject(_Tab, bpy.types.Panel):
             _words(column, "", "the rig's own")
         _sentence_part(column, settings, "Sex", "sex")
         split = column.split(factor=_LABELS)
-        split.label(text="Percentile")
+        split.label(text="Size")
         row = split.row(align=True)
         for percentile in (5, 50, 95):
             row.operator(REACHCAST_OT_choose_percentile.bl_idname, text=f"{percentile}th").percentile = percentile
         _sentence_part(column, settings, "Bones", "bone_map")
+
+
+class REACHCAST_PT_output(_Tab, bpy.types.Panel):
+    bl_label = "Output"
+    bl_parent_id = "REACHCAST_PT_lift"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = context.scene.reachcast
+        column = self.layout.column(align=True)
+        column.prop(settings, "markers", text="Markers on the timeline")
+        column.prop(settings, "assets", text="Actions as assets")
 
 
 class REACHCAST_PT_hand_path(_Tab, bpy.types.Panel):

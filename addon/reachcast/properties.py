@@ -84,6 +84,11 @@ class ReachcastSettings(bpy.types.PropertyGroup):
     spread: bpy.props.BoolProperty(
         name="Spread", default=True,
         description="Draw how far the hands' paths spread, as a tube two standard deviations wide about their mean")
+    markers: bpy.props.BoolProperty(
+        name="Markers", default=True,
+        description="Mark grasp, lift-off, placed and release on the timeline, in place of the rig's earlier markers")
+    assets: bpy.props.BoolProperty(
+        name="Assets", default=False, description="Mark the new Actions as assets, for the asset browser")
     corpus: bpy.props.StringProperty(
         name="Corpus", subtype="FILE_PATH",
         description="The file of recorded motions to learn from; empty takes the one that ships with the add-on")

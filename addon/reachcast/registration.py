@@ -19,6 +19,7 @@ CLASSES: tuple[type, ...] = (
     add_mannequin.REACHCAST_OT_add_mannequin,
     panels.REACHCAST_PT_lift,
     panels.REACHCAST_PT_subject,
+    panels.REACHCAST_PT_output,
     panels.REACHCAST_PT_hand_path,
     panels.REACHCAST_PT_variants,
     panels.REACHCAST_PT_others,

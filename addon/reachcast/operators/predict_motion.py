@@ -7,6 +7,7 @@ import bpy
 
 from ..properties import ERRANDS, core_sex, missing
 from ..scene.predict_action import PredictionResult, predict_motion
+from ..scene.publish import add_markers, mark_assets
 
 
 class REACHCAST_OT_predict_motion(bpy.types.Operator):
@@ -28,6 +29,11 @@ class REACHCAST_OT_predict_motion(bpy.types.Operator):
         except (ValueError, RuntimeError) as error:  # a mistake of the user's; a file that cannot be used
             return problem_of(self, context, error)
         context.window_manager.reachcast_problem = ""
+        settings = context.scene.reachcast
+        if settings.markers:
+            add_markers(result, context.scene)
+        if settings.assets:
+            mark_assets(result)
         self.report({"INFO"}, summary(result))
         return {"FINISHED"}
 
