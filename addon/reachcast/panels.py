@@ -7,7 +7,8 @@ import textwrap
 import bpy
 
 from . import path_editing
-from .operators.edit_hand_path import REACHCAST_OT_edit_hand_path, REACHCAST_OT_finish_hand_path
+from .operators.edit_hand_path import (REACHCAST_OT_edit_hand_path, REACHCAST_OT_finish_hand_path,
+                                       REACHCAST_OT_follow_targets)
 from .operators.predict_family import REACHCAST_OT_choose_percentile, REACHCAST_OT_predict_family
 from .operators.predict_motion import REACHCAST_OT_predict_motion
 from .operators.predict_targets import REACHCAST_OT_predict_targets
@@ -38,6 +39,11 @@ class REACHCAST_PT_lift(_Tab, bpy.types.Panel):
         row = self.layout.row()
         row.scale_y = 1.4
         row.operator(REACHCAST_OT_predict_motion.bl_idname, icon="ACTION")
+        session = path_editing.active()
+        if session is None:
+            row.operator(REACHCAST_OT_follow_targets.bl_idname, text="", icon="PLAY")
+        elif not session.curves:
+            row.operator(REACHCAST_OT_finish_hand_path.bl_idname, text="", icon="PAUSE")
         problem = context.window_manager.reachcast_problem
         if problem:
             _lines(self.layout, context, f"{problem[0].upper()}{problem[1:]}.", "CANCEL")
@@ -83,7 +89,7 @@ class REACHCAST_PT_hand_path(_Tab, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         session = path_editing.active()
-        if session is None:
+        if session is None or not session.curves:
             column = self.layout.column(align=True)
             column.operator(REACHCAST_OT_edit_hand_path.bl_idname, icon="CURVE_BEZCURVE")
             column.operator(REACHCAST_OT_edit_hand_path.bl_idname, text="Edit Empty Hands Too").all_phases = True

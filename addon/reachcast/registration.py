@@ -15,6 +15,7 @@ CLASSES: tuple[type, ...] = (
     predict_family.REACHCAST_OT_predict_family,
     predict_family.REACHCAST_OT_choose_percentile,
     edit_hand_path.REACHCAST_OT_edit_hand_path,
+    edit_hand_path.REACHCAST_OT_follow_targets,
     edit_hand_path.REACHCAST_OT_finish_hand_path,
     add_mannequin.REACHCAST_OT_add_mannequin,
     panels.REACHCAST_PT_lift,
