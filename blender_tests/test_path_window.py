@@ -56,6 +56,7 @@ def view_alone() -> Iterator[None]:
         bpy.ops.screen.screen_full_area(use_hide_panels=True)
     yield
     space = view_3d()[0].spaces.active
+    space.shading.light, space.shading.color_type, space.shading.show_backface_culling = "FLAT", "SINGLE", True
     space.overlay.show_overlays = space.shading.show_object_outline = space.show_gizmo = False
     space.show_region_ui = space.show_region_toolbar = space.show_region_header = space.show_region_tool_header = False
     yield
