@@ -46,6 +46,25 @@ def updates_per_second(rig: str) -> tuple[float, float]:
     return 1.0 / statistics.median(seconds), 1.0 / max(seconds)
 
 
+def live_per_second() -> float:
+    """The same for a shelf that moves, on the mannequin: the median."""
+    import corpora
+    from lift_cases import Place, lift_scene, rig_of
+    from reachcast.scene.path_session import begin_session
+    scene = lift_scene(rig_of("mannequin", 1.72))
+    scene.arrange(Place(1.0, 60, 0.55, facing=True), "floor")
+    session = begin_session(scene.rig, scene.shelf, home=scene.home, box=scene.box, start_frame=1,
+                            corpus=corpora.large_corpus(), live=True)
+    seconds = []
+    for step in range(UPDATES):
+        began = time.perf_counter()
+        scene.shelf.location.z += 0.005 if step < UPDATES // 2 else -0.005
+        assert session.update()
+        bpy.context.view_layer.update()
+        seconds.append(time.perf_counter() - began)
+    return 1.0 / statistics.median(seconds)
+
+
 def main() -> None:
     addon_utils.enable("reachcast")
     try:
@@ -53,9 +72,11 @@ def main() -> None:
     except unittest.SkipTest as reason:
         print(f"skipped: {reason}")
         return
+    live = live_per_second()
+    print(f"live, mannequin: {live:.0f} updates a second in the median", flush=True)
     for rig, (median, least) in speeds.items():
         print(f"hand path, {rig}: {median:.0f} updates a second in the median, {least:.0f} at the slowest", flush=True)
-    if speeds["mannequin"][0] < LEAST_PER_S:
+    if min(live, speeds["mannequin"][0]) < LEAST_PER_S:
         sys.exit(f"the mannequin must follow {LEAST_PER_S:g} times a second")
 
 

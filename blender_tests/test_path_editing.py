@@ -98,6 +98,28 @@ class Editing(unittest.TestCase):
         placed = self.scene.box.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation
         self.assertLess((placed - shelf.matrix_world.translation).length, 1e-3)
 
+    def test_a_live_motion_follows_the_shelf_and_the_home(self) -> None:
+        session = self.begin(live=True)
+        self.assertFalse(session.curves)
+        self.assertFalse(session.update())
+        frames = set()
+        for shelf, home in ((0.0, 0.0), (-0.4, 0.0), (0.25, 0.3), (-0.1, 0.1)):
+            self.scene.shelf.location.z = PLACE.height + shelf
+            self.scene.home.location.z = home
+            session.update()
+            events = session.result.frames
+            frames.add(events["end"])
+            seen = sample(self.scene.rig, read_rig(self.scene.rig), range(1, events["end"] + 1), self.scene.box)
+            for event, item in (("placed", self.scene.shelf), ("grasp", self.scene.home)):
+                off = seen.box_origins[events[event] - 1] - np.array(item.matrix_world.translation)
+                self.assertLess(np.linalg.norm(off), 1e-3)
+            hands = seen.joints[:, [INDEX["left_grip"], INDEX["right_grip"]]].mean(axis=1)
+            held = slice(events["grasp"] - 1, events["release"])
+            self.assertLess(np.linalg.norm(hands - seen.box_origins - [0, 0, 0.12], axis=1)[held].max(), 1e-3)
+            self.assertLess(np.abs(seen.joints[:, FEET] - seen.joints[0, FEET]).max(), 1e-3)
+        self.assertGreater(len(frames), 1, "how long it takes is predicted anew")
+        self.assertEqual(len(bpy.data.actions), 2)
+
     def test_a_place_out_of_reach_is_refused_and_the_motion_stays(self) -> None:
         session = self.begin()
         before = self.assert_follows(session)

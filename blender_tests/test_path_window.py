@@ -6,7 +6,8 @@
 
 In Edit Mode a handle is grabbed (G) and dragged; the body must follow while the mouse moves. Writes path_before.png,
 path_dragged.png and variants.png, prints how often the body was solved, and quits; exit status 1 when something is not
-as it should be.
+as it should be. Where OpenGL is software, drawing the window takes most of the time: --small leaves the 3D view alone and
+cheap to draw (give a small --window-geometry too), to measure and not to look at.
 """
 from __future__ import annotations
 
@@ -48,6 +49,19 @@ def look_from_the_side() -> None:
         bpy.ops.view3d.view_all()
 
 
+def view_alone() -> Iterator[None]:
+    """The 3D view alone in the window and as cheap to draw as it gets: what is left is the path editing."""
+    bpy.context.preferences.system.viewport_aa = "OFF"
+    with bpy.context.temp_override(**in_view()):
+        bpy.ops.screen.screen_full_area(use_hide_panels=True)
+    yield
+    space = view_3d()[0].spaces.active
+    space.shading.light, space.shading.color_type, space.shading.show_backface_culling = "FLAT", "SINGLE", True
+    space.overlay.show_overlays = space.shading.show_object_outline = space.show_gizmo = False
+    space.show_region_ui = space.show_region_toolbar = space.show_region_header = space.show_region_tool_header = False
+    yield
+
+
 def story(options) -> Iterator[None]:  # type: ignore[no-untyped-def]
     from reachcast import path_editing
     view_3d()[0].spaces.active.show_region_ui = True
@@ -70,6 +84,8 @@ def story(options) -> Iterator[None]:  # type: ignore[no-untyped-def]
         bpy.ops.curve.select_all(action="DESELECT")
         curve.data.splines[0].bezier_points[0].select_right_handle = True
     yield
+    if options.small:
+        yield from view_alone()
     with bpy.context.temp_override(**in_view()):
         began = time.perf_counter()
         bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=10)

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import bpy
 import numpy as np
 from mathutils import Vector
-from reachcast.rigs import bone_map
+from reachcast.rigs import bone_map, rig_presets
 from reachcast.rigs.joints import SIDES
 from reachcast.scene.read_rig import read_rig
 from rig_cases import RIGS, edit_bones, mannequin, metarig, move_tail
@@ -81,12 +81,12 @@ class Refusals(unittest.TestCase):
         self.refused(rig, "neck", "inherit scale")
 
     def test_bone_maps(self) -> None:
-        good = bone_map.presets()[0]
+        good = read_rig(RIGS["mannequin"]()).bone_map
         for text, words in (("{", ("not JSON",)), ("[]", ("segments",)),
                             ('{"segments": {"tail": "x"}}', ("unknown", "tail")),
                             ('{"segments": {}, "grips": {"L": {"bone": "x", "along": 2}}}', ("along", "2"))):
             with self.subTest(text=text), self.assertRaises(ValueError) as caught:
-                bone_map.parse_bone_map(text, "mine.json")
+                rig_presets.parse_preset(text, "mine.json")
             for word in words:
                 self.assertIn(word, str(caught.exception))
         twice = bone_map.BoneMap("twice", {**good.segments, "hand.L": good.segments["hand.R"]})
@@ -94,7 +94,7 @@ class Refusals(unittest.TestCase):
 
     def test_grip_override(self) -> None:
         rig = metarig()
-        preset = next(preset for preset in bone_map.presets() if "metarig" in preset.name)
+        preset = rig_presets.detect([bone.name for bone in rig.data.bones], rig.name)
         palm = bone_map.BoneMap("palm", preset.segments, {"L": bone_map.GripPlace("palm.02.L", 0.5)})
         bone = rig.data.bones["palm.02.L"]
         np.testing.assert_allclose(read_rig(rig, palm).joint("left_grip"),

@@ -7,8 +7,11 @@ import textwrap
 import bpy
 
 from . import path_editing
-from .operators.edit_hand_path import REACHCAST_OT_edit_hand_path, REACHCAST_OT_finish_hand_path
+from .operators.edit_hand_path import (REACHCAST_OT_edit_hand_path, REACHCAST_OT_finish_hand_path,
+                                       REACHCAST_OT_follow_targets)
+from .operators.predict_family import REACHCAST_OT_choose_percentile, REACHCAST_OT_predict_family
 from .operators.predict_motion import REACHCAST_OT_predict_motion
+from .operators.predict_targets import REACHCAST_OT_predict_targets
 from .operators.predict_variants import REACHCAST_OT_predict_variants
 from .properties import needs
 
@@ -36,6 +39,11 @@ class REACHCAST_PT_lift(_Tab, bpy.types.Panel):
         row = self.layout.row()
         row.scale_y = 1.4
         row.operator(REACHCAST_OT_predict_motion.bl_idname, icon="ACTION")
+        session = path_editing.active()
+        if session is None:
+            row.operator(REACHCAST_OT_follow_targets.bl_idname, text="", icon="PLAY")
+        elif not session.curves:
+            row.operator(REACHCAST_OT_finish_hand_path.bl_idname, text="", icon="PAUSE")
         problem = context.window_manager.reachcast_problem
         if problem:
             _lines(self.layout, context, f"{problem[0].upper()}{problem[1:]}.", "CANCEL")
@@ -54,7 +62,24 @@ class REACHCAST_PT_subject(_Tab, bpy.types.Panel):
         if settings.stature == 0.0:
             _words(column, "", "the rig's own")
         _sentence_part(column, settings, "Sex", "sex")
+        split = column.split(factor=_LABELS)
+        split.label(text="Size")
+        row = split.row(align=True)
+        for percentile in (5, 50, 95):
+            row.operator(REACHCAST_OT_choose_percentile.bl_idname, text=f"{percentile}th").percentile = percentile
         _sentence_part(column, settings, "Bones", "bone_map")
+
+
+class REACHCAST_PT_output(_Tab, bpy.types.Panel):
+    bl_label = "Output"
+    bl_parent_id = "REACHCAST_PT_lift"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = context.scene.reachcast
+        column = self.layout.column(align=True)
+        column.prop(settings, "markers", text="Markers on the timeline")
+        column.prop(settings, "assets", text="Actions as assets")
 
 
 class REACHCAST_PT_hand_path(_Tab, bpy.types.Panel):
@@ -64,7 +89,7 @@ class REACHCAST_PT_hand_path(_Tab, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         session = path_editing.active()
-        if session is None:
+        if session is None or not session.curves:
             column = self.layout.column(align=True)
             column.operator(REACHCAST_OT_edit_hand_path.bl_idname, icon="CURVE_BEZCURVE")
             column.operator(REACHCAST_OT_edit_hand_path.bl_idname, text="Edit Empty Hands Too").all_phases = True
@@ -89,6 +114,17 @@ class REACHCAST_PT_variants(_Tab, bpy.types.Panel):
             _sentence_part(column, settings, "Spacing", "spacing")
         column.prop(settings, "spread", text="Draw their spread as a tube")
         self.layout.operator(REACHCAST_OT_predict_variants.bl_idname, icon="MOD_ARRAY")
+
+
+class REACHCAST_PT_others(_Tab, bpy.types.Panel):
+    bl_label = "Several at Once"
+    bl_parent_id = "REACHCAST_PT_lift"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column = self.layout.column(align=True)
+        column.operator(REACHCAST_OT_predict_family.bl_idname, icon="COMMUNITY")
+        column.operator(REACHCAST_OT_predict_targets.bl_idname, icon="EMPTY_AXIS")
 
 
 class REACHCAST_PT_result(_Tab, bpy.types.Panel):

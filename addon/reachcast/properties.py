@@ -9,7 +9,7 @@ import bpy
 
 from . import native
 from .corpora import default_corpus
-from .rigs.bone_map import detect
+from .rigs.rig_presets import detect
 
 #: The sentence of the last prediction that failed. On the WindowManager: neither saved nor undone.
 PROBLEM = bpy.props.StringProperty(name="Problem", options={"HIDDEN", "SKIP_SAVE"})
@@ -84,12 +84,17 @@ class ReachcastSettings(bpy.types.PropertyGroup):
     spread: bpy.props.BoolProperty(
         name="Spread", default=True,
         description="Draw how far the hands' paths spread, as a tube two standard deviations wide about their mean")
+    markers: bpy.props.BoolProperty(
+        name="Markers", default=True,
+        description="Mark grasp, lift-off, placed and release on the timeline, in place of the rig's earlier markers")
+    assets: bpy.props.BoolProperty(
+        name="Assets", default=False, description="Mark the new Actions as assets, for the asset browser")
     corpus: bpy.props.StringProperty(
         name="Corpus", subtype="FILE_PATH",
         description="The file of recorded motions to learn from; empty takes the one that ships with the add-on")
     bone_map: bpy.props.StringProperty(
         name="Bone Map", subtype="FILE_PATH",
-        description="A JSON file that says which bone is which; empty recognises the mannequin and Rigify's metarig")
+        description="A JSON file that says which bone is which; empty recognises the rigs of many tools by their names")
     stature: bpy.props.FloatProperty(
         name="Stature", min=0.0, max=2.6, default=0.0, subtype="DISTANCE", unit="LENGTH",
         description="Height of the person to move like; 0 takes the rig's own")
@@ -121,9 +126,9 @@ def needs(settings: ReachcastSettings) -> list[Need]:
     ]
 
 
-def missing(settings: ReachcastSettings) -> str | None:
-    """The first reason why Predict Motion cannot run, or None."""
-    return next((need.reason for need in needs(settings) if need.reason), None)
+def missing(settings: ReachcastSettings, without: tuple[str, ...] = ()) -> str | None:
+    """The first reason why Predict Motion cannot run, or None; needs named in `without` are not looked at."""
+    return next((need.reason for need in needs(settings) if need.reason and need.name not in without), None)
 
 
 def _rig_reason(settings: ReachcastSettings) -> str | None:

@@ -5,19 +5,25 @@ from __future__ import annotations
 import bpy
 
 from . import corpora, panels, path_editing, properties
-from .operators import add_mannequin, edit_hand_path, predict_motion, predict_variants
+from .operators import add_mannequin, edit_hand_path, predict_family, predict_motion, predict_targets, predict_variants
 
 CLASSES: tuple[type, ...] = (
     properties.ReachcastSettings,
     predict_motion.REACHCAST_OT_predict_motion,
     predict_variants.REACHCAST_OT_predict_variants,
+    predict_targets.REACHCAST_OT_predict_targets,
+    predict_family.REACHCAST_OT_predict_family,
+    predict_family.REACHCAST_OT_choose_percentile,
     edit_hand_path.REACHCAST_OT_edit_hand_path,
+    edit_hand_path.REACHCAST_OT_follow_targets,
     edit_hand_path.REACHCAST_OT_finish_hand_path,
     add_mannequin.REACHCAST_OT_add_mannequin,
     panels.REACHCAST_PT_lift,
     panels.REACHCAST_PT_subject,
+    panels.REACHCAST_PT_output,
     panels.REACHCAST_PT_hand_path,
     panels.REACHCAST_PT_variants,
+    panels.REACHCAST_PT_others,
     panels.REACHCAST_PT_result,
 )
 

@@ -20,4 +20,5 @@ PYBIND11_MODULE(reachcast_core, m) {
   bind_predict(m);
   bind_cross_validate(m);
   bind_rig(m);
+  bind_replay(m);
 }

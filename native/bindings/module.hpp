@@ -15,3 +15,4 @@ void bind_task(pybind11::module_& m);
 void bind_predict(pybind11::module_& m);
 void bind_cross_validate(pybind11::module_& m);
 void bind_rig(pybind11::module_& m);
+void bind_replay(pybind11::module_& m);

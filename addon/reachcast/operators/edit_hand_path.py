@@ -6,7 +6,7 @@ import bpy
 from .. import path_editing
 from ..properties import missing
 from ..scene.path_session import begin_session
-from .predict_motion import task_of
+from .predict_motion import problem_of, task_of
 
 
 class REACHCAST_OT_edit_hand_path(bpy.types.Operator):
@@ -34,9 +34,7 @@ class REACHCAST_OT_edit_hand_path(bpy.types.Operator):
             session = begin_session(task.pop("rig"), task.pop("shelf"), **task,
                                     edited=range(len(task["phases"])) if self.all_phases else None)
         except (ValueError, RuntimeError) as error:
-            context.window_manager.reachcast_problem = str(error)
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            return problem_of(self, context, error)
         context.window_manager.reachcast_problem = ""
         path_editing.start(session)
         curves = [bpy.data.objects[name] for name in session.curves.values()]
@@ -49,16 +47,39 @@ class REACHCAST_OT_edit_hand_path(bpy.types.Operator):
         return {"FINISHED"}
 
 
+class REACHCAST_OT_follow_targets(bpy.types.Operator):
+    bl_idname = "reachcast.follow_targets"
+    bl_label = "Live"
+    bl_description = "Predict, and again whenever the Empty on the shelf or at home moves, while the mouse moves it"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return REACHCAST_OT_edit_hand_path.poll.__func__(cls, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        path_editing.stop()
+        task = task_of(context)
+        try:
+            session = begin_session(task.pop("rig"), task.pop("shelf"), **task, live=True)
+        except (ValueError, RuntimeError) as error:
+            return problem_of(self, context, error)
+        context.window_manager.reachcast_problem = ""
+        path_editing.start(session)
+        self.report({"INFO"}, f"'{session.result.action}' follows '{session.shelf}' while it is moved")
+        return {"FINISHED"}
+
+
 class REACHCAST_OT_finish_hand_path(bpy.types.Operator):
     bl_idname = "reachcast.finish_hand_path"
     bl_label = "Done"
-    bl_description = "Stop editing: the curves go, the Action stays as it is and can be edited again"
+    bl_description = "Stop following: curves go, the Action stays as it is and can be edited again"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if path_editing.active() is None:
-            cls.poll_message_set("No hand path is being edited.")
+            cls.poll_message_set("Nothing is being edited or followed.")
             return False
         return True
 

@@ -7,6 +7,7 @@ import bpy
 
 from ..properties import ERRANDS, core_sex, missing
 from ..scene.predict_action import PredictionResult, predict_motion
+from ..scene.publish import add_markers, mark_assets
 
 
 class REACHCAST_OT_predict_motion(bpy.types.Operator):
@@ -26,12 +27,22 @@ class REACHCAST_OT_predict_motion(bpy.types.Operator):
         try:
             result = predict_motion(**task_of(context))
         except (ValueError, RuntimeError) as error:  # a mistake of the user's; a file that cannot be used
-            context.window_manager.reachcast_problem = str(error)
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            return problem_of(self, context, error)
         context.window_manager.reachcast_problem = ""
+        settings = context.scene.reachcast
+        if settings.markers:
+            add_markers(result, context.scene)
+        if settings.assets:
+            mark_assets(result)
         self.report({"INFO"}, summary(result))
         return {"FINISHED"}
+
+
+def problem_of(operator: bpy.types.Operator, context: bpy.types.Context, error: Exception) -> set[str]:
+    """Says what went wrong, in the panel and the status bar."""
+    context.window_manager.reachcast_problem = str(error)
+    operator.report({"ERROR"}, str(error))
+    return {"CANCELLED"}
 
 
 def task_of(context: bpy.types.Context) -> dict[str, Any]:

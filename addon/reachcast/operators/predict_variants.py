@@ -5,7 +5,7 @@ import bpy
 
 from ..properties import missing
 from ..scene.variants import predict_variants
-from .predict_motion import task_of
+from .predict_motion import problem_of, task_of
 
 
 class REACHCAST_OT_predict_variants(bpy.types.Operator):
@@ -28,9 +28,7 @@ class REACHCAST_OT_predict_variants(bpy.types.Operator):
                                      amount=settings.variation, ghosts=settings.variants_as == "GHOSTS",
                                      spacing=settings.spacing, tube=settings.spread)
         except (ValueError, RuntimeError) as error:
-            context.window_manager.reachcast_problem = str(error)
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            return problem_of(self, context, error)
         context.window_manager.reachcast_problem = ""
         if found.failed:
             seeds = ", ".join(str(seed) for seed, _ in found.failed)

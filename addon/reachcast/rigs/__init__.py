@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a rig is, for any skeleton: plain arrays in and out, no Blender.
 
-joints.py     the 27 joint centres
-bone_map.py   which bone of a rig is which segment of a body
-skeleton.py   a rig's rest pose: its joints, its body frame
-rotations.py  rotation maths on stacks of matrices
-retarget.py   joints over time -> turn, place and key values of every bone; and forward again: the native module's
+joints.py        the 27 joint centres
+bone_map.py      which bone of a rig is which segment of a body
+rig_presets.py   maps of known rigs and the user's own, and which fits
+skeleton.py      a rig's rest pose: its joints, its body frame
+rotations.py     rotation maths on stacks of matrices
+retarget.py      joints over time -> turn, place and key values of every bone; and forward again: the native module's
 """

@@ -16,20 +16,31 @@ def add_ghost(prepared: Prepared, solved: Solved, rig: bpy.types.Object, box: bp
               first: int, aside: float, collection: bpy.types.Collection,
               layer: bpy.types.ViewLayer) -> PredictionResult:
     """A copy of rig and box, `aside` metres to the subject's right, with Actions that begin at frame `first`."""
-    offset = aside * prepared.skeleton.axes[0]
     copy = _copied(rig, collection)
     for worn in _worn_by(rig):
         _dress(_copied(worn, collection), rig, copy)
+    copy.matrix_world = rig.matrix_world.copy()
+    return perform_aside(prepared, solved, copy, box, what, first, aside, collection, layer, name=rig.name)
+
+
+def perform_aside(prepared: Prepared, solved: Solved, rig: bpy.types.Object, box: bpy.types.Object | None, what: str,
+                  first: int, aside: float, collection: bpy.types.Collection, layer: bpy.types.ViewLayer, *,
+                  name: str | None = None) -> PredictionResult:
+    """Moves `rig` by `aside` metres to the subject's right and gives it the motion; a copy of the box goes along.
+
+    The Action is called after `name`, or the rig, and `what`.
+    """
+    offset = aside * prepared.skeleton.axes[0]
     matrix = rig.matrix_world.copy()
     matrix.translation = matrix.translation + type(matrix.translation)(offset)
-    copy.matrix_world = matrix
-    action = write_rig_action(copy, prepared.skeleton, solved.pose, f"{rig.name} {what}", first)
+    rig.matrix_world = matrix
+    action = write_rig_action(rig, prepared.skeleton, solved.pose, f"{name or rig.name} {what}", first)
     box_action = None
     if box is not None:
         carried, lift = _copied(box, collection), prepared.lift
         box_action = write_box_action(carried, above_matrix(box, layer), box_origins(lift, solved.places) + offset,
                                       box_turns(lift, solved.places), f"{box.name} {what}", first)
-    return describe(solved, copy.name, action, box_action, first)
+    return describe(solved, rig.name, action, box_action, first)
 
 
 def _copied(item: bpy.types.Object, collection: bpy.types.Collection) -> bpy.types.Object:

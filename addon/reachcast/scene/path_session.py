@@ -3,7 +3,8 @@
 
 A session begins with a prediction, whose Actions are new. From then on `update` looks at the curves and at the Empties
 on the shelf and at home; where one has moved, the same Actions get other keys. How long each phase takes stays as it
-was. Datablocks are kept by name, since undo frees them.
+was. A live session has no curves: it follows the Empties, and predicts durations anew each time. Datablocks are kept
+by name, since undo frees them.
 """
 from __future__ import annotations
 
@@ -44,7 +45,7 @@ class PathSession:
     box: str | None
     result: PredictionResult
     prepared: Prepared
-    durations: dict[str, float]               #: phase -> seconds
+    durations: dict[str, float] | None        #: phase -> seconds; None: predicted anew each time
     above: Array | None                       #: (4, 4) of the box
     curves: dict[int, str]                    #: number of the phase -> curve object
     ends: dict[int, tuple[str, str]]          #: number of the phase -> where its path begins and ends: home, target, rest
@@ -64,7 +65,8 @@ class PathSession:
             return False
         self.prepared = replace(self.prepared, lift=lift)
         self._put_ends(control)
-        solved = solve(self.prepared, duration=self.durations, hand_paths=self._inner(control))
+        kept = {} if self.durations is None else {"duration": self.durations, "hand_paths": self._inner(control)}
+        solved = solve(self.prepared, **kept)
         action, box_action = self._action(self.result.action), self._action(self.result.box_action)
         rewrite_action(action, rig_channels(rig, self.prepared.skeleton, solved.pose), self.result.first_frame)
         if box is not None and box_action is not None:
@@ -97,6 +99,7 @@ class PathSession:
 
     def _move_places(self, control: Mapping[int, Array], moved: Iterable[int], layer: bpy.types.ViewLayer) -> None:
         """An end of a curve that was moved takes the Empty there with it."""
+        taken = False
         for number in sorted(moved):
             for place, at in zip(self.ends[number], (0, 3)):
                 way = control[number][at] - self.seen[number][at]
@@ -107,7 +110,9 @@ class PathSession:
                 matrix = item.matrix_world.copy()
                 matrix.translation = matrix.translation + type(matrix.translation)(way)
                 item.matrix_world = matrix
-        layer.update()
+                taken = True
+        if taken:
+            layer.update()
 
     def _lift(self, layer: bpy.types.ViewLayer) -> Lift:
         lift, skeleton = self.prepared.lift, self.prepared.skeleton
@@ -148,22 +153,23 @@ class PathSession:
 
 def begin_session(rig: bpy.types.Object, shelf: bpy.types.Object, *, home: bpy.types.Object | None = None,
                   box: bpy.types.Object | None = None, edited: Sequence[int] | None = None,
-                  start_frame: int | None = None, scene: bpy.types.Scene | None = None,
+                  start_frame: int | None = None, scene: bpy.types.Scene | None = None, live: bool = False,
                   **options: object) -> PathSession:
     """Predicts as `predict_motion` does and adds a curve for the path of every edited phase (numbers into `phases`;
     None: those that carry the box, or all when none does). Paths that were edited before in the rig's Action are taken
-    up again. ValueError when it cannot be done; nothing has then been written."""
+    up again. live: no curves, `edited` is not looked at. ValueError when it cannot be done; nothing has then been
+    written."""
     scene = scene or bpy.context.scene
     layer = layer_of(scene)
     prepared = prepare(rig, shelf, home=home, box=box, scene=scene, **options)
     learned = solve(prepared)
     phases = [phase for phase, _, _ in learned.motion.phases]
-    numbers = _edited(phases, edited)
+    numbers = [] if live else _edited(phases, edited)
     former = rig.animation_data.action if rig.animation_data else None
     inner = {number: _inner_of(former, number, prepared, learned) for number in numbers}
-    durations = {phase: float(learned.motion.times[last] - learned.motion.times[first])
-                 for phase, first, last in learned.motion.phases}
-    solved = solve(prepared, duration=durations, hand_paths=inner)
+    durations = None if live else {phase: float(learned.motion.times[last] - learned.motion.times[first])
+                                   for phase, first, last in learned.motion.phases}
+    solved = learned if live else solve(prepared, duration=durations, hand_paths=inner)
     first = scene.frame_current if start_frame is None else int(start_frame)
     above = above_matrix(box, layer) if box else None
     result = write_solved(prepared, solved, rig, box, f"to {shelf.name}", first, layer)

@@ -7,7 +7,8 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from ..rigs.bone_map import BoneMap, detect, load_bone_map
+from ..rigs.bone_map import BoneMap
+from ..rigs.rig_presets import detect, load_preset
 from ..rigs.rotations import orthonormal
 from ..rigs.skeleton import Bones, Skeleton, build_skeleton
 from .transforms import Placement, described, even_placement
@@ -29,7 +30,7 @@ def read_rig(rig: bpy.types.Object, bone_map: BoneMap | str | Path | None = None
     if bone_map is None:
         bone_map = detect(names, rig.name)
     elif not isinstance(bone_map, BoneMap):
-        bone_map = load_bone_map(bpy.path.abspath(str(bone_map)))
+        bone_map = load_preset(bpy.path.abspath(str(bone_map))).on(names)
     skeleton = build_skeleton(rig.name, _bones(rig, even_placement(rig, layer)), bone_map)
     _refuse_what_overrides_keys(rig, skeleton)
     return skeleton

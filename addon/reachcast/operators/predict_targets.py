@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+from __future__ import annotations
+
+import bpy
+
+from ..properties import missing
+from ..scene.several_targets import predict_to_targets
+from .predict_motion import problem_of, task_of
+
+
+def _shelves(context: bpy.types.Context) -> list[bpy.types.Object]:
+    return sorted((item for item in context.selected_objects
+                   if item.type == "EMPTY" and item != context.scene.reachcast.home), key=lambda item: item.name)
+
+
+class REACHCAST_OT_predict_targets(bpy.types.Operator):
+    bl_idname = "reachcast.predict_targets"
+    bl_label = "Targets from Selection"
+    bl_description = "Write one Action for each selected Empty, taken as the shelf"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        reason = missing(context.scene.reachcast, without=("Shelf",))
+        if reason is None and not _shelves(context):
+            reason = "Select the Empties on the shelves."
+        if reason:
+            cls.poll_message_set(reason)
+        return reason is None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            found = predict_to_targets(shelves=_shelves(context), **{name: value for name, value in
+                                                                     task_of(context).items() if name != "shelf"})
+        except (ValueError, RuntimeError) as error:
+            return problem_of(self, context, error)
+        context.window_manager.reachcast_problem = ""
+        if found.failed:
+            shelf, reason = found.failed[0]
+            self.report({"WARNING"}, f"{len(found.results)} Actions; not to {len(found.failed)}, '{shelf}': {reason}")
+        else:
+            self.report({"INFO"}, f"{len(found.results)} Actions, one for each target")
+        return {"FINISHED"}

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One motion to each of several places."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import bpy
+
+from .predict_action import PredictionResult, predict_motion
+
+
+@dataclass(frozen=True)
+class TargetsResult:
+    results: tuple[PredictionResult, ...]    #: in the order of the shelves
+    failed: tuple[tuple[str, str], ...]      #: (shelf, why not)
+
+
+def predict_to_targets(rig: bpy.types.Object, shelves: Sequence[bpy.types.Object], *,
+                       box: bpy.types.Object | None = None, start_frame: int | None = None,
+                       scene: bpy.types.Scene | None = None, **options: object) -> TargetsResult:
+    """What `predict_motion` does, for every shelf: an Action each on the rig and on the box, the first of them active.
+
+    All start at the same frame. A place that cannot be served is named in `failed`; ValueError when none can, or when
+    there is none. Every Action is kept with the file (fake user), since only one can be active.
+    """
+    if not shelves:
+        raise ValueError("No targets are given; select the Empties on the shelves")
+    scene = scene or bpy.context.scene
+    first = scene.frame_current if start_frame is None else int(start_frame)
+    former = {item: item.animation_data.action if item.animation_data else None for item in (rig, box) if item}
+    results, failed = [], []
+    for shelf in shelves:
+        _take_up(former)  # each motion begins from what the user had, not from the one before
+        try:
+            results.append(predict_motion(rig, shelf, box=box, start_frame=first, scene=scene, **options))
+        except ValueError as error:
+            failed.append((shelf.name, str(error)))
+    if not results:
+        raise ValueError(f"No target can be served; '{failed[0][0]}': {failed[0][1]}")
+    for result in results:
+        for name in filter(None, (result.action, result.box_action)):
+            bpy.data.actions[name].use_fake_user = True
+    _take_up({rig: bpy.data.actions[results[0].action],
+              **({box: bpy.data.actions[results[0].box_action]} if box else {})})
+    return TargetsResult(tuple(results), tuple(failed))
+
+
+def _take_up(actions: dict[bpy.types.Object, bpy.types.Action | None]) -> None:
+    for item, action in actions.items():
+        if item.animation_data is not None:
+            item.animation_data.action = action
