@@ -8,6 +8,7 @@ Recordings are looked for in $REACHCAST_MOCAP, else in ../shared/mocap beside th
 import csv
 import math
 import os
+import struct
 import sys
 from pathlib import Path
 
@@ -217,6 +218,93 @@ def test_interval_picks_its_rows():
     assert clip.rate == 100.0
 
 
+# ---------------------------------------------------------------- C3D and TRC, the slow and plain way
+
+
+def vax_float(raw):
+    """DEC's F format by its definition: sign, exponent biased by 128, fraction 0.1f with the first bit hidden."""
+    high, low = struct.unpack("<HH", raw)
+    exponent = high >> 7 & 0xFF
+    fraction = (1 << 23 | (high & 0x7F) << 16 | low) / (1 << 24)
+    return 0.0 if exponent == 0 else (-1) ** (high >> 15) * fraction * 2.0 ** (exponent - 128)
+
+
+def naive_c3d(path):
+    """(points (F, J, 3) in file units with NaN for missing, rate), by the header alone."""
+    data = path.read_bytes()
+    is_dec = data[(data[0] - 1) * 512 + 3] == 85
+    real = vax_float if is_dec else (lambda raw: struct.unpack("<f", raw)[0])
+    joints, analog, first, last = struct.unpack("<4H", data[2:10])
+    scale, rate = real(data[12:16]), real(data[20:24])
+    width = 4 if scale < 0 else 2
+    at = (struct.unpack("<H", data[16:18])[0] - 1) * 512
+    points = np.full((last - first + 1, joints, 3), math.nan)
+    for frame in range(len(points)):
+        for joint in range(joints):
+            here = at + width * (frame * (4 * joints + analog) + 4 * joint)
+            raw = [data[here + width * i : here + width * (i + 1)] for i in range(4)]
+            if width == 4:
+                x, y, z, residual = map(real, raw)
+            else:
+                x, y, z, residual = (struct.unpack("<h", part)[0] for part in raw)
+                x, y, z = x * scale, y * scale, z * scale
+            if residual >= 0:
+                points[frame, joint] = x, y, z
+    return points, rate
+
+
+@pytest.mark.parametrize("path", files_in("c3d_trc", "*.c3d"), ids=lambda path: path.stem)
+def test_c3d_points_agree_with_a_plain_reading(path):
+    need_file(path)
+    expected, rate = naive_c3d(path)
+    clip = rc.read_motion(str(path), metres_per_unit=1.0, up="z")
+    assert clip.positions.shape == expected.shape
+    assert clip.rate == pytest.approx(rate, rel=1e-6)
+    np.testing.assert_array_equal(np.isnan(clip.positions), np.isnan(expected))
+    np.testing.assert_allclose(clip.positions, expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("path", files_in("c3d_trc", "*.trc"), ids=lambda path: path.stem)
+def test_trc_points_agree_with_a_plain_reading(path):
+    need_file(path)
+    lines = path.read_text().splitlines()
+    names = [name for name in lines[3].split("\t")[2:] if name.strip()]
+    rows = [line.split("\t") for line in lines[5:] if line.strip()]
+    table = np.array([[float(c) if c.strip() else math.nan for c in row[2 : 2 + 3 * len(names)]] for row in rows])
+    clip = rc.read_motion(str(path), metres_per_unit=1.0, up="z")
+    assert clip.names == [name.strip() for name in names]
+    np.testing.assert_array_equal(clip.positions, table.reshape(len(rows), -1, 3))
+    assert clip.rate == float(lines[2].split()[0])
+
+
+def test_guess_is_shown_and_can_be_overridden():
+    path = need("c3d_trc") / "motion_capture_walk.trc"
+    guess = rc.read_motion(str(path)).guess
+    assert (guess.unit, guess.unit_from, guess.up, guess.up_from) == ("millimetres", "file", "y", "data")
+    assert (guess.facing, guess.facing_from, guess.rate, guess.rate_from) == ("x", "data", 100.0, "file")
+    assert 1.5 < guess.stature < 2.0
+    assert "millimetres (file), up y (data), facing x (data), 100 Hz (file)" in str(guess)
+    plain = rc.read_motion(str(path)).positions
+    turned = rc.read_motion(str(path), facing="x", rate=50)
+    np.testing.assert_allclose(turned.positions, np.stack([-plain[..., 1], plain[..., 0], plain[..., 2]], -1))
+    assert (turned.guess.facing_from, turned.guess.rate_from, turned.rate) == ("argument", "argument", 50.0)
+    upside_down = rc.read_motion(str(path), up="-y").positions
+    np.testing.assert_allclose(upside_down[..., 2], -plain[..., 2])
+    with pytest.raises(ValueError, match="facing must be a horizontal axis of the file, not 'y'"):
+        rc.read_motion(str(path), facing="y")
+    with pytest.raises(ValueError, match="up must be 'x', 'y', 'z', '-x', '-y' or '-z', not 'w'"):
+        rc.read_motion(str(path), up="w")
+
+
+def test_wrong_unit_in_the_file_is_noticed(tmp_path):
+    text = (need("c3d_trc") / "motion_capture_walk.trc").read_text()
+    wrong = tmp_path / "wrong.trc"
+    wrong.write_text(text.replace("\t\t mm\t", "\t\t m\t", 1))
+    clip = rc.read_motion(str(wrong))
+    assert (clip.guess.unit, clip.guess.unit_from) == ("millimetres", "data")
+    assert "The file states metres, but the person would be 17" in clip.note
+
+
 # ---------------------------------------------------------------- from recording to reach
 
 
@@ -230,8 +318,8 @@ def test_arrays_own_their_memory_and_errors_are_value_errors(tmp_path):
         rc.Clip(["a"], given, 50.0)
     with pytest.raises(ValueError, match="no known set of joint names"):
         rc.canonical(clip)
-    with pytest.raises(ValueError, match=r"\.bvh or \.csv"):
-        rc.read_motion(str(tmp_path / "walk.c3d"))
+    with pytest.raises(ValueError, match=r"\.trc or \.amc"):
+        rc.read_motion(str(tmp_path / "walk.fbx"))
 
 
 def test_reach_starts_at_the_ankles_and_faces_forward():

@@ -18,6 +18,7 @@ namespace {
 
 using reachcast::Clip;
 using reachcast::CutOptions;
+using reachcast::Guess;
 using reachcast::Joint;
 using reachcast::JointMap;
 using reachcast::kJointCount;
@@ -56,6 +57,13 @@ py::dict clip_channels(const Clip& clip) {
   return channels;
 }
 
+py::array_t<bool> clip_filled(const Clip& clip) {
+  py::array_t<bool> array({clip.frames(), clip.joints()});
+  bool* const to = array.mutable_data();
+  for (std::size_t i = 0; i < clip.positions.size(); ++i) to[i] = !clip.filled.empty() && clip.filled[i] != 0;
+  return array;
+}
+
 Clip make_clip(const std::vector<std::string>& names,
                const py::array_t<double, py::array::c_style | py::array::forcecast>& positions, double rate_hz,
                const std::string& source) {
@@ -75,10 +83,9 @@ Clip make_clip(const std::vector<std::string>& names,
 }
 
 MotionFile read_motion(const std::string& path, std::optional<double> metres_per_unit,
-                       const std::optional<std::string>& up, std::optional<double> rate, std::optional<long> interval) {
-  MotionFileOptions options{metres_per_unit, {}, rate, interval};
-  if (up && up->size() != 1) throw std::invalid_argument("up must be 'x', 'y' or 'z', not '" + *up + "'");
-  if (up) options.up = up->front();
+                       const std::optional<std::string>& up, std::optional<double> rate, std::optional<long> interval,
+                       const std::optional<std::string>& facing, const std::optional<std::string>& skeleton) {
+  const MotionFileOptions options{metres_per_unit, up, rate, interval, facing, skeleton};
   const py::gil_scoped_release release;
   return reachcast::read_motion(path, options);
 }
@@ -143,6 +150,28 @@ py::array_t<double> hold_points(const Reach& reach) {
   return array;
 }
 
+void bind_guess(py::module_& m) {
+  const auto from = [](reachcast::From Guess::*field) {
+    return [field](const Guess& guess) { return std::string(reachcast::name_of(guess.*field)); };
+  };
+  py::class_<Guess>(
+      m, "Guess",
+      "How a file was understood. Each *_from is 'argument', 'file', 'data' (seen in the points), 'usual'\n"
+      "(for the format) or 'unknown'. str() gives it all in one line.")
+      .def_readonly("metres_per_unit", &Guess::metres_per_unit)
+      .def_readonly("unit", &Guess::unit, "In words: 'millimetres'.")
+      .def_property_readonly("unit_from", from(&Guess::unit_from))
+      .def_readonly("up", &Guess::up, "The file's axis that points up: 'y', '-z', ...")
+      .def_property_readonly("up_from", from(&Guess::up_from))
+      .def_readonly("facing", &Guess::facing, "The file's axis nearest to where the person faces at first; '' unknown.")
+      .def_property_readonly("facing_from", from(&Guess::facing_from))
+      .def_readonly("rate", &Guess::rate_hz, "Frames per second.")
+      .def_property_readonly("rate_from", from(&Guess::rate_from))
+      .def_readonly("stature", &Guess::stature_m, "Metres, from the lengths of legs and trunk; NaN when not known.")
+      .def("__str__", &Guess::summary)
+      .def("__repr__", [](const Guess& guess) { return "<Guess: " + guess.summary() + ">"; });
+}
+
 void bind_clip(py::module_& m) {
   py::class_<Clip>(m, "Clip", "Named points over time: metres, z up, the world of the recording; NaN is missing.")
       .def(py::init(&make_clip), "names"_a, "positions"_a, "rate"_a, "source"_a = "", "positions: (frames, joints, 3).")
@@ -152,6 +181,8 @@ void bind_clip(py::module_& m) {
           [](const Clip& clip) { return points_array(clip.positions.data(), clip.frames(), clip.joints()); },
           "A new array (frames, joints, 3).")
       .def_readonly("rate", &Clip::rate_hz, "Frames per second.")
+      .def_property_readonly("filled", &clip_filled,
+                             "A new array of bool (frames, joints): true where a gap was filled (see fill_gaps).")
       .def_readonly("derived", &Clip::derived, "One flag per joint: computed from others, not recorded.")
       .def_property_readonly("channels", &clip_channels, "Other numeric columns: name to a new array (frames,).")
       .def_readonly("source", &Clip::source)
@@ -162,8 +193,9 @@ void bind_clip(py::module_& m) {
                " Hz>";
       });
   py::class_<MotionFile, Clip>(m, "MotionFile", "A Clip together with how its file was understood.")
-      .def_readonly("metres_per_unit", &MotionFile::metres_per_unit)
-      .def_property_readonly("up", [](const MotionFile& file) { return std::string(1, file.up); })
+      .def_readonly("guess", &MotionFile::guess)
+      .def_property_readonly("metres_per_unit", [](const MotionFile& file) { return file.guess.metres_per_unit; })
+      .def_property_readonly("up", [](const MotionFile& file) { return file.guess.up; })
       .def_property_readonly(
           "note", [](const MotionFile& file) { return text(file.note); },
           "What was guessed or noticed, in sentences; empty when nothing was.");
@@ -195,14 +227,17 @@ void bind_reach(py::module_& m) {
 }  // namespace
 
 void bind_mocap(py::module_& m) {
+  bind_guess(m);
   bind_clip(m);
   bind_reach(m);
-  m.def("read_motion", &read_motion, "path"_a, py::kw_only(), "metres_per_unit"_a = py::none(), "up"_a = py::none(),
-        "rate"_a = py::none(), "interval"_a = py::none(),
-        "Reads a .bvh or .csv file as a MotionFile (a Clip) in metres, z up. What is not given is taken from the file "
-        "or\n"
-        "guessed, and then mentioned in .note. up: 'x', 'y' or 'z'; interval: a group of rows of an interval_label "
-        "table.");
+  m.def(
+      "read_motion", &read_motion, "path"_a, py::kw_only(), "metres_per_unit"_a = py::none(), "up"_a = py::none(),
+      "rate"_a = py::none(), "interval"_a = py::none(), "facing"_a = py::none(), "skeleton"_a = py::none(),
+      "Reads a .bvh, .csv, .c3d, .trc or .amc file as a MotionFile (a Clip) in metres, z up. What is not given is\n"
+      "taken from the file or guessed from the data: .guess says what and from where, .note in sentences.\n"
+      "up: the file's axis that points up, 'x', 'y', 'z', '-x', '-y' or '-z'; rate: frames per second (an .amc needs\n"
+      "it); interval: a group of rows of an interval_label table; facing: the file's horizontal axis that becomes +y\n"
+      "(None: nothing is turned); skeleton: the .asf of an .amc (None: looked for beside it).");
   m.def(
       "canonical", &canonical, "clip"_a, "map"_a = py::none(),
       "The clip in the 27 canonical joints, missing ones derived. map: the name of a preset, or a dict or pairs of a\n"

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "bvh_skeleton.hpp"
+#include "settle.hpp"
 #include "units.hpp"
 
 namespace reachcast {
@@ -80,13 +81,13 @@ double read_field(TextScanner& scanner, std::string_view keyword) {
   return *value;
 }
 
-double read_rate(TextScanner& scanner, const MotionFileOptions& options, std::string& note) {
+std::optional<double> read_rate(TextScanner& scanner, const MotionFileOptions& options, std::string& note) {
   constexpr double longest_s = 1e3;
   constexpr double shortest_s = 1e-6;
   const double step_s = read_field(scanner, "Frame Time");
-  if (options.rate_hz) return *options.rate_hz;
+  if (options.rate_hz) return std::nullopt;
   if (!(step_s >= shortest_s && step_s <= longest_s)) {
-    scanner.fail_found("a Frame Time between 1e-6 and 1000 s (or give rate_hz)", show(step_s));
+    scanner.fail_found("a Frame Time between 1e-6 and 1000 s (or give rate)", show(step_s));
   }
   if (step_s > 1.0) add_note(note, "A frame lasts " + show(step_s) + " s: is that right?");
   return 1.0 / step_s;
@@ -114,6 +115,10 @@ void read_frames(TextScanner& scanner, const BvhSkeleton& skeleton, double state
   std::vector<double> values(skeleton.channel_count);
   const std::size_t joints = skeleton.joints.size();
   std::size_t frames = 0;
+  // At least two bytes per number; whatever is announced, no more than 24 bytes of memory per byte of text.
+  const double most_frames = static_cast<double>(scanner.remaining() / 2 / skeleton.channel_count);
+  const auto expected = static_cast<std::size_t>(std::clamp(stated_frames, 0.0, most_frames));
+  file.positions.reserve(std::min(expected * joints, scanner.remaining()));
   while (scanner.next_line_with_words()) {
     read_values(scanner, values);
     if (++frames * joints > kMostPoints) {
@@ -127,30 +132,6 @@ void read_frames(TextScanner& scanner, const BvhSkeleton& skeleton, double state
     add_note(file.note, "The file announces " + show(stated_frames) + " frames and has " + std::to_string(frames) +
                             "; all of them were read.");
   }
-}
-
-void choose_up(const MotionFileOptions& options, MotionFile& file) {
-  const std::optional<char> seen = guess_up(file.names, file.positions);
-  file.up = options.up.value_or(seen.value_or('y'));
-  if (!options.up) {
-    add_note(file.note, std::string("Up is taken to be ") + file.up + (seen ? ", from head and feet." : ", as usual."));
-  }
-}
-
-void choose_unit(const BvhSkeleton& skeleton, const MotionFileOptions& options, MotionFile& file) {
-  if (options.metres_per_unit) {
-    file.metres_per_unit = *options.metres_per_unit;
-    return;
-  }
-  const double height = skeleton.height();
-  const std::optional<Unit> unit = guess_unit(height);
-  if (!unit) {
-    throw std::invalid_argument(file.source + ": expected a skeleton 1.4 to 2.1 m tall in some known unit, found " +
-                                show(height) + " units from foot to head; give metres_per_unit");
-  }
-  file.metres_per_unit = unit->metres;
-  add_note(file.note, "The unit is taken to be " + std::string(unit->name) + ": the skeleton is " +
-                          show(std::round(height * unit->metres * 1e3) / 1e3) + " m from foot to head.");
 }
 
 }  // namespace
@@ -168,11 +149,12 @@ MotionFile parse_bvh(std::string_view text, const std::string& source, const Mot
   file.names = skeleton.names();
   file.derived.assign(file.names.size(), false);
   const double stated_frames = read_field(scanner, "Frames");
-  file.rate_hz = read_rate(scanner, options, file.note);
-  choose_unit(skeleton, options, file);
+  settle_rate(options, read_rate(scanner, options, file.note), file);
   read_frames(scanner, skeleton, stated_frames, file);
-  choose_up(options, file);
-  for (Vec3& point : file.positions) point = to_z_up(point, file.up) * file.metres_per_unit;
+  FileSays says;
+  says.usual_up.assign(1, 'y');
+  says.skeleton_height = skeleton.height();
+  settle(options, says, file);
   return file;
 }
 

@@ -10,9 +10,11 @@
 ///   1999: the C7/T1 centre lies halfway from the skin over C7 to the suprasternale, a little above that line);
 /// - tragion 0.07 above C7/T1 and a little in front; nasion 0.055 in front of the tragion.
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 #include "joint_sources.hpp"
+#include "units.hpp"
 
 namespace reachcast {
 namespace {
@@ -121,14 +123,8 @@ class Pose {
 template <typename Length>
 double median_over_frames(std::size_t frames, Length length_at) {
   std::vector<double> lengths;
-  for (std::size_t frame = 0; frame < frames; ++frame) {
-    const double length = length_at(frame);
-    if (std::isfinite(length)) lengths.push_back(length);
-  }
-  if (lengths.empty()) return kMissing;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  for (std::size_t frame = 0; frame < frames; ++frame) lengths.push_back(length_at(frame));
+  return median_of(lengths);
 }
 
 Segments measure(const Clip& clip) {
@@ -146,32 +142,45 @@ Segments measure(const Clip& clip) {
           link(left_elbow, left_wrist, right_elbow, right_wrist)};
 }
 
-Vec3 mean_point(const Clip& clip, std::size_t frame, const std::vector<std::size_t>& source) {
-  if (source.empty()) return Vec3(kMissing);
-  Vec3 sum(0.0);
-  for (const std::size_t joint : source) sum += clip.at(frame, joint);
-  return sum / static_cast<double>(source.size());
+/// F * 27 flags: see to_canonical. Empty where nothing was filled.
+std::vector<std::uint8_t> filled_joints(const Clip& clip, const JointSources& sources) {
+  if (clip.filled.empty()) return {};
+  std::vector<std::uint8_t> filled(clip.frames() * kJointCount, 0);
+  for (std::size_t frame = 0; frame < clip.frames(); ++frame) {
+    std::uint8_t* const flags = &filled[frame * kJointCount];
+    for (std::size_t joint = 0; joint < kJointCount; ++joint) {
+      for (const std::size_t point : sources[joint].points) flags[joint] |= clip.filled[frame * clip.joints() + point];
+    }
+    const bool is_any = std::any_of(flags, flags + kJointCount, [](std::uint8_t flag) { return flag != 0; });
+    for (std::size_t joint = 0; joint < kJointCount; ++joint) {
+      if (sources[joint].empty() && is_any) flags[joint] = 1;
+    }
+  }
+  return filled;
 }
 
 }  // namespace
 
 Clip to_canonical(const Clip& clip, const JointMap& map) {
+  check_joint_map(map);
   const JointSources sources = find_sources(clip, map);
   if (const std::string missing = missing_joints(sources); !missing.empty()) {
     throw std::invalid_argument(clip.source + ": the joint map '" + map.name + "' finds no point for " + missing);
   }
   Clip result{clip.source, clip.rate_hz, {}, {}, Points(clip.frames() * kJointCount), clip.channels};
+  result.filled = filled_joints(clip, sources);
   Flags recorded{};
   for (std::size_t joint = 0; joint < kJointCount; ++joint) {
-    const std::vector<std::size_t>& source = sources[joint];
+    const FoundSource& source = sources[joint];
     recorded[joint] = !source.empty();
     result.names.emplace_back(joint_names()[joint]);
-    result.derived.push_back(source.size() != 1 || clip.derived.at(source.front()));
+    result.derived.push_back(source.points.size() != 1 || source.has_offset() ||
+                             clip.derived.at(source.points.front()));
   }
   result.derived[index(left_clavicle)] = result.derived[index(right_clavicle)] = true;
   for (std::size_t frame = 0; frame < clip.frames(); ++frame) {
     for (std::size_t joint = 0; joint < kJointCount; ++joint) {
-      result.at(frame, joint) = mean_point(clip, frame, sources[joint]);
+      result.at(frame, joint) = joint_centre(clip, frame, sources[joint]);
     }
   }
   const Segments segments = measure(result);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "csv_table.hpp"
+#include "settle.hpp"
 #include "text_scanner.hpp"
 #include "units.hpp"
 
@@ -57,13 +58,13 @@ std::vector<std::size_t> choose_rows(const CsvTable& table, const MotionFileOpti
 
 /// Frames per second from times that must advance evenly (to a fifth of a step: printed times are rounded).
 double rate_of_times(const std::vector<double>& times, const std::string& source) {
-  if (times.size() < 2) throw std::invalid_argument(source + ": one frame alone has no rate; give rate_hz");
+  if (times.size() < 2) throw std::invalid_argument(source + ": one frame alone has no rate; give rate");
   const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
   for (std::size_t i = 1; i < times.size(); ++i) {
     if (!(step > 0.0) || !(std::abs(times[i] - times[i - 1] - step) <= 0.2 * step)) {
       throw std::invalid_argument(source + ": expected time_s to advance in even steps of about " + show(step) +
                                   " s, found " + show(times[i - 1]) + " followed by " + show(times[i]) +
-                                  "; give rate_hz if the frames are evenly spaced all the same");
+                                  "; give rate if the frames are evenly spaced all the same");
     }
   }
   return 1.0 / step;
@@ -72,37 +73,26 @@ double rate_of_times(const std::vector<double>& times, const std::string& source
 void choose_rate(const CsvTable& table, const MotionFileOptions& options, MotionFile& file) {
   const auto times = file.channels.find(std::string(kTimes));
   if (options.rate_hz) {
-    file.rate_hz = *options.rate_hz;
+    settle_rate(options, {}, file);
   } else if (times != file.channels.end()) {
-    file.rate_hz = rate_of_times(times->second, file.source);
+    settle_rate(options, rate_of_times(times->second, file.source), file);
   } else if (table.find(kIntervals)) {
-    file.rate_hz = kUnstatedRate_hz;
-    add_note(file.note, "The table states no rate; 100 Hz is assumed (give rate_hz).");
+    settle_rate(options, kUnstatedRate_hz, file);
+    file.guess.rate_from = From::usual;
+    add_note(file.note, "The table states no rate; 100 Hz is assumed (give rate).");
   } else {
-    throw std::invalid_argument(file.source + ": expected a column time_s or the option rate_hz, found neither");
+    throw std::invalid_argument(file.source + ": expected a column time_s or the option rate, found neither");
   }
 }
 
-/// Millimetres when the typical point lies beyond kFarthest_m along its largest coordinate.
-void choose_unit(const MotionFileOptions& options, MotionFile& file) {
+/// Metres per unit for tables without a known body: millimetres when the typical point lies beyond kFarthest_m along
+/// its largest coordinate.
+double usual_unit(const MotionFile& file) {
   std::vector<double> sizes;
   for (const Vec3& point : file.positions) {
     if (is_finite(point)) sizes.push_back(std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}));
   }
-  double typical = 0.0;
-  if (!sizes.empty()) {
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    typical = *middle;
-  }
-  if (!options.metres_per_unit && typical > kFarthest_m) add_note(file.note, "The unit is taken to be millimetres.");
-  file.metres_per_unit = options.metres_per_unit.value_or(typical > kFarthest_m ? 0.001 : 1.0);
-}
-
-void choose_up(const MotionFileOptions& options, MotionFile& file) {
-  const std::optional<char> seen = guess_up(file.names, file.positions);
-  file.up = options.up.value_or(seen.value_or('z'));
-  if (!options.up && file.up != 'z') add_note(file.note, std::string("Up is taken to be ") + file.up + ".");
+  return median_of(sizes) > kFarthest_m ? 0.001 : 1.0;
 }
 
 void take_points(const CsvTable& table, const std::vector<std::size_t>& rows, const std::vector<PointColumns>& points,
@@ -149,9 +139,9 @@ MotionFile parse_csv_motion(std::string_view text, const std::string& source, co
   take_points(table, rows, points, file);
   take_channels(table, rows, used, file);
   choose_rate(table, options, file);
-  choose_unit(options, file);
-  choose_up(options, file);
-  for (Vec3& point : file.positions) point = to_z_up(point, file.up) * file.metres_per_unit;
+  FileSays says;
+  says.usual_unit = usual_unit(file);
+  settle(options, says, file);
   return file;
 }
 

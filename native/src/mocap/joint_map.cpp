@@ -2,38 +2,34 @@
 #include "reachcast/mocap/joint_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
-#include <unordered_map>
 
 #include "joint_sources.hpp"
+#include "text_scanner.hpp"
+#include "units.hpp"
 
 namespace reachcast {
 namespace {
 
-std::string_view without_namespace(std::string_view name) {
-  const std::size_t colon = name.rfind(':');
-  return colon == std::string_view::npos ? name : name.substr(colon + 1);
-}
+constexpr double kLongestOffset = 5.0;
 
-using NameIndex = std::unordered_map<std::string_view, std::size_t>;
-
-/// Full names win over names without their namespace, and earlier points over later ones.
-NameIndex index_names(const Clip& clip) {
-  NameIndex index;
-  for (std::size_t i = 0; i < clip.names.size(); ++i) index.emplace(clip.names[i], i);
-  for (std::size_t i = 0; i < clip.names.size(); ++i) index.emplace(without_namespace(clip.names[i]), i);
-  return index;
-}
-
-/// Indices of all the names, or nothing when one of them is not recorded.
-std::vector<std::size_t> find_all(const NameIndex& index, const std::vector<std::string>& names) {
-  std::vector<std::size_t> found;
-  for (const std::string& name : names) {
-    const auto at = index.find(name);
-    if (at == index.end()) return {};
-    found.push_back(at->second);
+void check_source(Joint joint, const JointSource& source) {
+  const auto fail = [&](const std::string& what) {
+    throw std::invalid_argument("map: " + std::string(joint_name(joint)) + ' ' + what);
+  };
+  if (source.points.empty()) fail("names no point");
+  if (!is_finite(source.offset) || !(glm::length(source.offset) <= kLongestOffset)) {
+    fail("has an offset that is not a finite vector of at most " + show(kLongestOffset));
   }
-  return found;
+  if (source.offset == Vec3(0.0)) return;
+  if (source.across.empty()) fail("has an offset, but no 'across' to say which way it points");
+  if (!source.ahead.empty() && !source.along.empty()) fail("has 'ahead' and 'along'; one of them is enough");
+}
+
+std::size_t required_without_source(const JointSources& sources) {
+  return static_cast<std::size_t>(std::count_if(required_joints().begin(), required_joints().end(),
+                                                [&](Joint joint) { return sources[index(joint)].empty(); }));
 }
 
 }  // namespace
@@ -46,46 +42,39 @@ const std::vector<Joint>& required_joints() {
   return required;
 }
 
-JointSources find_sources(const Clip& clip, const JointMap& map) {
-  const NameIndex names = index_names(clip);
-  JointSources sources;
-  for (const auto& [joint, wanted] : map.sources) {
-    std::vector<std::size_t>& source = sources[index(joint)];
-    if (source.empty()) source = find_all(names, wanted);
-  }
-  return sources;
+void check_joint_map(const JointMap& map) {
+  for (const auto& [joint, source] : map.sources) check_source(joint, source);
 }
 
-std::string missing_joints(const JointSources& sources) {
-  std::string missing;
-  for (const Joint joint : required_joints()) {
-    if (sources[index(joint)].empty()) missing += (missing.empty() ? "" : ", ") + std::string(joint_name(joint));
+std::vector<std::string> parse_mean(std::string_view text) {
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t plus = std::min(text.find('+', begin), text.size());
+    if (plus == begin) throw std::invalid_argument("map: expected names joined by '+', found " + quote(text));
+    names.emplace_back(text.substr(begin, plus - begin));
+    begin = plus + 1;
   }
-  return missing;
+  return names;
+}
+
+PointSpan parse_span(std::string_view text) {
+  const std::size_t arrow = text.find('>');
+  if (arrow == std::string_view::npos) {
+    throw std::invalid_argument("map: expected FROM>TO, each a name or several joined by '+', found " + quote(text));
+  }
+  return {parse_mean(text.substr(0, arrow)), parse_mean(text.substr(arrow + 1))};
 }
 
 const JointMap& detect_joint_map(const Clip& clip) {
-  const JointMap* best = nullptr;
-  std::size_t most = 0;
+  if (const JointMap* best = best_joint_map(clip)) return *best;
   const JointMap* nearest = nullptr;
   std::size_t fewest_missing = required_joints().size() + 1;
   for (const JointMap& map : joint_map_presets()) {
-    const JointSources sources = find_sources(clip, map);
-    const auto found = static_cast<std::size_t>(
-        std::count_if(sources.begin(), sources.end(), [](const auto& source) { return !source.empty(); }));
-    const auto lacking =
-        static_cast<std::size_t>(std::count_if(required_joints().begin(), required_joints().end(),
-                                               [&](Joint joint) { return sources[index(joint)].empty(); }));
-    if (lacking == 0 && found > most) {
-      best = &map;
-      most = found;
-    }
-    if (lacking < fewest_missing) {
-      nearest = &map;
-      fewest_missing = lacking;
-    }
+    const std::size_t lacking = required_without_source(find_sources(clip, map));
+    if (lacking >= fewest_missing) continue;
+    nearest = &map;
+    fewest_missing = lacking;
   }
-  if (best) return *best;
   throw std::invalid_argument(clip.source + ": no known set of joint names fits; the nearest is '" + nearest->name +
                               "', which finds no point for " + missing_joints(find_sources(clip, *nearest)) +
                               "; give a joint map");

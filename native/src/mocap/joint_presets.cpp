@@ -7,10 +7,13 @@
 namespace reachcast {
 namespace {
 
-/// '@' stands for the side, in the joint ("left", "right") and in the points; '+' joins points to be averaged.
+/// '@' stands for the side, in the joint ("left", "right") and in the points; '+' joins points to be averaged, '>'
+/// leads from one to another. An offset is that of the right side: x changes its sign on the left.
 struct Row {
   std::string_view joint;
   std::string_view points;
+  Vec3 offset{0.0};
+  std::string_view scale{}, across{}, ahead{}, along{};
 };
 
 struct Table {
@@ -62,6 +65,60 @@ constexpr Row kPoser[] = {{"@_ball", "@Toe"},      {"@_ball", "@Foot_end"}, {"@_
                           {"@_elbow", "@ForeArm"}, {"@_wrist", "@Hand"},    {"@_hand_front", "@Mid1"},
                           {"c7t1", "neck"},        {"tragion", "head"}};
 
+// Plug-in Gait markers (Vicon), and those of the CMU database, which names the pelvis LFWT, RFWT, LBWT, RBWT.
+// - Hips: 0.36, 0.22 and 0.30 of the distance of the front pelvis markers aside, behind and below their middle (Bell,
+//   Pedersen & Brand 1990).
+// - Knee and ankle markers lie on the outside: half a joint's width and a marker's radius, as parts of the shank
+//   (0.057 and 0.042 of 0.42 m). Elbow markers likewise, as parts of the upper arm (0.042 of 0.30 m).
+// - The shoulder lies 0.05 m below its marker where shoulders are 0.36 m apart. The head band runs 0.05 m above the
+// ears.
+constexpr Vec3 kHipOffset{0.36, -0.22, -0.30};
+constexpr Vec3 kKneeOffset{-0.136, 0.0, 0.0};
+constexpr Vec3 kAnkleOffset{-0.10, 0.0, 0.0};
+constexpr Vec3 kElbowOffset{-0.14, 0.0, 0.0};
+constexpr Vec3 kShoulderOffset{0.0, 0.0, -0.14};
+constexpr Row kPlugInGait[] = {
+    {"@_ball", "@TOE"},
+    {"@_ball", "@MT1"},
+    {"@_ankle", "@ANK", kAnkleOffset, "@ANK>@KNE", "LASI>RASI", {}, "@ANK>@KNE"},
+    {"@_ankle", "@ANK", kAnkleOffset, "@ANK>@KNE", "LFWT>RFWT", {}, "@ANK>@KNE"},
+    {"@_knee", "@KNE", kKneeOffset, "@ANK>@KNE", "LASI>RASI", {}, "@ANK>@KNE"},
+    {"@_knee", "@KNE", kKneeOffset, "@ANK>@KNE", "LFWT>RFWT", {}, "@ANK>@KNE"},
+    {"@_hip", "LASI+RASI", kHipOffset, "LASI>RASI", "LASI>RASI", "LPSI+RPSI>LASI+RASI", {}},
+    {"@_hip", "LASI+RASI", kHipOffset, "LASI>RASI", "LASI>RASI", "SACR>LASI+RASI", {}},
+    {"@_hip", "LFWT+RFWT", kHipOffset, "LFWT>RFWT", "LFWT>RFWT", "LBWT+RBWT>LFWT+RFWT", {}},
+    {"@_shoulder", "@SHO", kShoulderOffset, "LSHO>RSHO", "LSHO>RSHO", {}, "T10+STRN>C7+CLAV"},
+    {"@_elbow", "@ELB", kElbowOffset, "@ELB>@SHO", "LSHO>RSHO", {}, "@ELB>@SHO"},
+    {"@_wrist", "@WRA+@WRB"},
+    {"@_wrist", "@WRI"},
+    {"@_hand_front", "@FIN"},
+    {"c7t1", "C7+CLAV"},
+    {"suprasternale", "CLAV"},
+    {"tragion", "LFHD+RFHD+LBHD+RBHD", {0.0, 0.0, -0.05}, {}, "LFHD>RFHD", "LBHD+RBHD>LFHD+RFHD", {}}};
+
+// Markers named by side and place with a dot, as Motion Analysis templates have them ("R.ASIS").
+constexpr Row kDotted[] = {
+    {"@_ball", "@.Toe"},
+    {"@_ankle", "@.Ankle", kAnkleOffset, "@.Ankle>@.Knee", "L.ASIS>R.ASIS", {}, "@.Ankle>@.Knee"},
+    {"@_knee", "@.Knee", kKneeOffset, "@.Ankle>@.Knee", "L.ASIS>R.ASIS", {}, "@.Ankle>@.Knee"},
+    {"@_hip", "L.ASIS+R.ASIS", kHipOffset, "L.ASIS>R.ASIS", "L.ASIS>R.ASIS", "L.PSIS+R.PSIS>L.ASIS+R.ASIS", {}},
+    {"@_hip", "L.ASIS+R.ASIS", kHipOffset, "L.ASIS>R.ASIS", "L.ASIS>R.ASIS", "V.Sacral>L.ASIS+R.ASIS", {}},
+    {"@_shoulder",
+     "@.Shoulder",
+     kShoulderOffset,
+     "L.Shoulder>R.Shoulder",
+     "L.Shoulder>R.Shoulder",
+     {},
+     "L.ASIS+R.ASIS>L.Shoulder+R.Shoulder"},
+    {"@_elbow", "@.Elbow", kElbowOffset, "@.Elbow>@.Shoulder", "L.Shoulder>R.Shoulder", {}, "@.Elbow>@.Shoulder"},
+    {"@_wrist", "@.Wrist"}};
+
+// Acclaim skeletons of the CMU database: a bone is named by its start.
+constexpr Row kAcclaim[] = {{"@_ball", "@toes"},   {"@_ankle", "@foot"},         {"@_knee", "@tibia"},
+                            {"@_hip", "@femur"},   {"@_shoulder", "@humerus"},   {"@_elbow", "@radius"},
+                            {"@_wrist", "@wrist"}, {"@_hand_front", "@fingers"}, {"l5s1", "lowerback"},
+                            {"c7t1", "lowerneck"}, {"tragion", "head"}};
+
 constexpr Table kTables[] = {{"omomo", "L", "R", kOmomo},
                              {"lieblich", "L", "R", kLieblich},
                              {"motionbuilder", "Left", "Right", kMotionBuilder},
@@ -69,23 +126,28 @@ constexpr Table kTables[] = {{"omomo", "L", "R", kOmomo},
                              {"anatomical", "Left", "Right", kAnatomical},
                              {"biovision", "Left", "Right", kBiovision},
                              {"iclone", "L", "R", kIClone},
-                             {"poser", "l", "r", kPoser}};
+                             {"poser", "l", "r", kPoser},
+                             {"plug-in gait", "L", "R", kPlugInGait},
+                             {"dotted", "L", "R", kDotted},
+                             {"acclaim", "l", "r", kAcclaim}};
 
 std::string with_side(std::string_view pattern, std::string_view side) {
-  std::string text(pattern);
-  if (const std::size_t at = text.find('@'); at != std::string::npos) text.replace(at, 1, side);
+  std::string text;
+  for (const char c : pattern) c == '@' ? text += side : text += c;
   return text;
 }
 
 void add_row(JointMap& map, const Row& row, std::string_view joint_side, std::string_view point_side) {
-  std::vector<std::string> points;
-  std::string_view rest = row.points;
-  while (!rest.empty()) {
-    const std::size_t plus = std::min(rest.find('+'), rest.size());
-    points.push_back(with_side(rest.substr(0, plus), point_side));
-    rest.remove_prefix(std::min(plus + 1, rest.size()));
-  }
-  map.sources.emplace_back(find_joint(with_side(row.joint, joint_side)).value(), std::move(points));
+  const auto span = [&](std::string_view text) {
+    return text.empty() ? PointSpan{} : parse_span(with_side(text, point_side));
+  };
+  JointSource source(parse_mean(with_side(row.points, point_side)));
+  source.offset = joint_side == "left" ? row.offset * Vec3(-1.0, 1.0, 1.0) : row.offset;
+  source.scale = span(row.scale);
+  source.across = span(row.across);
+  source.ahead = span(row.ahead);
+  source.along = span(row.along);
+  map.sources.emplace_back(find_joint(with_side(row.joint, joint_side)).value(), std::move(source));
 }
 
 JointMap expand(const Table& table) {
@@ -101,7 +163,7 @@ std::vector<JointMap> make_presets() {
   JointMap canonical{"reachcast", {}};
   for (std::size_t i = 0; i < kJointCount; ++i) {
     const auto joint = static_cast<Joint>(i);
-    canonical.sources.emplace_back(joint, std::vector<std::string>{std::string(joint_name(joint))});
+    canonical.sources.emplace_back(joint, JointSource{std::string(joint_name(joint))});
   }
   std::vector<JointMap> presets{std::move(canonical)};
   for (const Table& table : kTables) presets.push_back(expand(table));

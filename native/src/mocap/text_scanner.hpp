@@ -25,6 +25,7 @@ class TextScanner {
   TextScanner(std::string_view text, std::string source);
 
   [[nodiscard]] std::size_t line() const { return line_; }
+  [[nodiscard]] std::size_t remaining() const { return text_.size() - position_; }  ///< bytes
   [[nodiscard]] bool at_end() const { return position_ >= text_.size(); }
 
   /// Next word on this or a later line; braces are words of their own. Empty at the end of the text.

@@ -44,9 +44,15 @@ void check_options(const MotionFileOptions& options) {
   };
   positive(options.metres_per_unit, "metres_per_unit");
   positive(options.rate_hz, "rate_hz");
-  if (options.up && (*options.up < 'x' || *options.up > 'z')) {
-    throw std::invalid_argument(std::string("up must be 'x', 'y' or 'z', not '") + *options.up + "'");
-  }
+  const auto axis = [](const std::optional<std::string>& value, const char* name) {
+    constexpr std::array<std::string_view, 6> known{"x", "y", "z", "-x", "-y", "-z"};
+    if (value && std::find(known.begin(), known.end(), *value) == known.end()) {
+      throw std::invalid_argument(std::string(name) + " must be 'x', 'y', 'z', '-x', '-y' or '-z', not '" + *value +
+                                  "'");
+    }
+  };
+  axis(options.up, "up");
+  axis(options.facing, "facing");
 }
 
 BodyEnd body_end(std::string_view name) {
@@ -60,7 +66,7 @@ BodyEnd body_end(std::string_view name) {
   return std::any_of(low.begin(), low.end(), is_part) ? BodyEnd::low : BodyEnd::neither;
 }
 
-std::optional<char> guess_up(std::span<const std::string> names, std::span<const Vec3> poses) {
+std::optional<std::string> guess_up(std::span<const std::string> names, std::span<const Vec3> poses) {
   Mean upper, lower;
   for (std::size_t joint = 0; joint < names.size(); ++joint) {
     const BodyEnd end = body_end(names[joint]);
@@ -72,10 +78,16 @@ std::optional<char> guess_up(std::span<const std::string> names, std::span<const
   const Vec3 rise = upper.value() - lower.value();
   int best = 0;
   for (int axis = 1; axis < 3; ++axis) {
-    if (rise[axis] > rise[best]) best = axis;
+    if (std::abs(rise[axis]) > std::abs(rise[best])) best = axis;
   }
-  if (!(rise[best] > 0.0)) return std::nullopt;
-  return static_cast<char>('x' + best);
+  if (!(std::abs(rise[best]) > 0.0)) return std::nullopt;
+  return signed_axis(best, rise[best] < 0.0);
+}
+
+std::string signed_axis(int axis, bool is_negative) {
+  std::string name(is_negative ? "-" : "");
+  name.push_back(static_cast<char>('x' + axis));
+  return name;
 }
 
 std::optional<Unit> guess_unit(double height) {
@@ -86,10 +98,24 @@ std::optional<Unit> guess_unit(double height) {
   return std::nullopt;
 }
 
-Vec3 to_z_up(const Vec3& p, char up) {
-  if (up == 'x') return {p.y, p.z, p.x};
-  if (up == 'y') return {p.x, -p.z, p.y};
-  return p;
+std::string unit_name(double metres) {
+  for (const Unit& unit : kUnits) {
+    if (unit.metres == metres) return std::string(unit.name);
+  }
+  return show(metres) + " m";
+}
+
+Vec3 to_z_up(const Vec3& p, std::string_view up) {
+  const Vec3 turned = up.back() == 'x' ? Vec3(p.y, p.z, p.x) : up.back() == 'y' ? Vec3(p.x, -p.z, p.y) : p;
+  return up.front() == '-' ? Vec3(turned.x, -turned.y, -turned.z) : turned;
+}
+
+double median_of(std::vector<double>& values) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return kMissing;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 std::string show(double value) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "reachcast/conventions.hpp"
 #include "reachcast/mocap/motion_file.hpp"
@@ -16,8 +17,9 @@ namespace reachcast {
 void check_options(const MotionFileOptions& options);
 
 /// The axis along which the points named after head, neck or shoulders lie highest above those named after ankles,
-/// feet or toes, on the mean over poses; empty when names or numbers do not tell. `poses` holds whole poses.
-[[nodiscard]] std::optional<char> guess_up(std::span<const std::string> names, std::span<const Vec3> poses);
+/// feet or toes, on the mean over poses, with its sign ("y", "-y"); empty when names or numbers do not tell. `poses`
+/// holds whole poses.
+[[nodiscard]] std::optional<std::string> guess_up(std::span<const std::string> names, std::span<const Vec3> poses);
 
 /// Which end of a standing body a point's name speaks of. Names are compared in lower case.
 enum class BodyEnd { neither, high, low };
@@ -30,8 +32,18 @@ struct Unit {
 /// The unit in which a standing skeleton of this height is 1.4 to 2.1 m tall; empty when none is.
 [[nodiscard]] std::optional<Unit> guess_unit(double height);
 
-/// A proper rotation that brings the given axis to z: x up (y, z, x); y up (x, -z, y).
-[[nodiscard]] Vec3 to_z_up(const Vec3& point, char up);
+/// "metres", "millimetres", ..., "0.1 m".
+[[nodiscard]] std::string unit_name(double metres);
+
+/// A proper rotation that brings the given axis to z: x up (y, z, x); y up (x, -z, y). For "-x", "-y", "-z" half a turn
+/// about x comes after it.
+[[nodiscard]] Vec3 to_z_up(const Vec3& point, std::string_view up);
+
+/// Median of the finite values, reordering them; the upper one of two, NaN when there are none.
+[[nodiscard]] double median_of(std::vector<double>& values);
+
+/// 0 to 2 and a sign as "x" to "-z".
+[[nodiscard]] std::string signed_axis(int axis, bool is_negative);
 
 [[nodiscard]] inline int axis_index(char axis) {
   return axis - 'x';

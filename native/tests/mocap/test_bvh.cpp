@@ -13,7 +13,7 @@ using namespace reachcast::test;
 
 constexpr double kTolerance = 1e-12;  // a handful of products of numbers of size 10
 
-const MotionFileOptions kAsInFile{.metres_per_unit = 1.0, .up = 'z', .rate_hz = {}, .interval = {}};
+const MotionFileOptions kAsInFile{.metres_per_unit = 1.0, .up = "z", .rate_hz = {}, .interval = {}};
 
 MotionFile parse(const std::string& text, const MotionFileOptions& options = kAsInFile) {
   return parse_bvh(text, "hand.bvh", options);
@@ -95,9 +95,9 @@ TEST(Bvh, NamesMayHoldBlanks) {
 
 TEST(Bvh, EachAxisCanBeUp) {
   MotionFileOptions options = kAsInFile;
-  options.up = 'y';
+  options.up = "y";
   expect_point(parse(kSmallBvh, options).at(0, 0), {1, -3, 2});
-  options.up = 'x';
+  options.up = "x";
   expect_point(parse(kSmallBvh, options).at(0, 0), {2, 3, 1});
 }
 
@@ -105,11 +105,11 @@ TEST(Bvh, UnitIsGuessedFromTheHeightOrAskedFor) {
   const auto scaled = [](const std::string& arm) {
     return parse_bvh(replaced(kSmallBvh, "OFFSET 0 10 0", "OFFSET 0 " + arm + " 0"), "hand.bvh");
   };
-  EXPECT_DOUBLE_EQ(scaled("165").metres_per_unit, 0.01);
-  EXPECT_DOUBLE_EQ(scaled("1600").metres_per_unit, 0.001);
-  EXPECT_DOUBLE_EQ(scaled("60").metres_per_unit, 0.0254);
-  EXPECT_DOUBLE_EQ(scaled("25").metres_per_unit, 0.0254 / 0.45);
-  EXPECT_EQ(scaled("165").up, 'y');
+  EXPECT_DOUBLE_EQ(scaled("165").guess.metres_per_unit, 0.01);
+  EXPECT_DOUBLE_EQ(scaled("1600").guess.metres_per_unit, 0.001);
+  EXPECT_DOUBLE_EQ(scaled("60").guess.metres_per_unit, 0.0254);
+  EXPECT_DOUBLE_EQ(scaled("25").guess.metres_per_unit, 0.0254 / 0.45);
+  EXPECT_EQ(scaled("165").guess.up, "y");
   EXPECT_EQ(complaint([&] { scaled("10"); }),
             "hand.bvh: expected a skeleton 1.4 to 2.1 m tall in some known unit, found 15 units from foot to head; "
             "give metres_per_unit");
@@ -133,7 +133,7 @@ TEST(Bvh, MalformedTextIsAnsweredWithLineExpectedAndFound) {
       {"Frames: 2", "Frame: 2", "hand.bvh:17: expected Frames:, found \"Frame: 2\""},
       {"Frames: 2", "Frames: two", "hand.bvh:17: expected a number after Frames:, found \"two\""},
       {"Frame Time: .05", "Frame Time: 0",
-       "hand.bvh:18: expected a Frame Time between 1e-6 and 1000 s (or give rate_hz), found 0"},
+       "hand.bvh:18: expected a Frame Time between 1e-6 and 1000 s (or give rate), found 0"},
       {"1 2 3 0 0 0 0 0 0\n", "1 2 3 0 0 0 0 0\n", "hand.bvh:19: expected 9 numbers in a frame, found only 8"},
       {"90 0 0 0 90 0\n", "90 0 0 0", "hand.bvh:20: expected 9 numbers in a frame, found only 7"},
       {"1 2 3 0 0", "1 2 3 0 0 0", "hand.bvh:19: expected the line to end after 9 numbers, found \"0\""},
@@ -160,13 +160,13 @@ TEST(Bvh, OptionsOutOfRangeAreNamed) {
   EXPECT_EQ(complaint([&] { (void)parse(kSmallBvh, options); }),
             "metres_per_unit must be over 0 and at most 1e6, not -2");
   EXPECT_EQ(
-      complaint([&] { (void)parse(kSmallBvh, {.metres_per_unit = {}, .up = 'w', .rate_hz = {}, .interval = {}}); }),
-      "up must be 'x', 'y' or 'z', not 'w'");
+      complaint([&] { (void)parse(kSmallBvh, {.metres_per_unit = {}, .up = "w", .rate_hz = {}, .interval = {}}); }),
+      "up must be 'x', 'y', 'z', '-x', '-y' or '-z', not 'w'");
 }
 
 TEST(ReadMotion, AnotherEndingIsAnsweredWithTheKnownOnes) {
   EXPECT_EQ(complaint([] { (void)read_motion("walk.fbx"); }),
-            "walk.fbx: expected a file that ends in .bvh or .csv, found \".fbx\"");
+            "walk.fbx: expected a file that ends in .bvh, .csv, .c3d, .trc or .amc, found \".fbx\"");
   EXPECT_EQ(complaint([] { (void)read_motion("/no/such/walk.BVH"); }),
             "/no/such/walk.BVH: cannot be read as a file of at most 4 GB");
   EXPECT_NE(complaint([] { (void)read_bvh("/"); }), "");

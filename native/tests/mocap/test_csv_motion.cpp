@@ -57,7 +57,7 @@ TEST(CsvMotion, AnglesAreNoPointsAndIntervalsAreChosen) {
   EXPECT_EQ(all.names, std::vector<std::string>{"w"});
   EXPECT_EQ(all.frames(), 3U);
   EXPECT_DOUBLE_EQ(all.rate_hz, 100.0);
-  EXPECT_DOUBLE_EQ(all.metres_per_unit, 0.001);
+  EXPECT_DOUBLE_EQ(all.guess.metres_per_unit, 0.001);
   EXPECT_NE(all.note.find("100 Hz is assumed"), std::string::npos);
   MotionFileOptions second;
   second.interval = 2;
@@ -71,7 +71,7 @@ TEST(CsvMotion, AnglesAreNoPointsAndIntervalsAreChosen) {
 TEST(CsvMotion, UpIsTakenFromShouldersAndAnkles) {
   const MotionFile file =
       parse("time_s,RSHO_x,RSHO_y,RSHO_z,RANK_x,RANK_y,RANK_z\n0,0,1.4,0.1,0,0.1,0.3\n1,0,1.4,0.1,0,0.1,0.3\n");
-  EXPECT_EQ(file.up, 'y');
+  EXPECT_EQ(file.guess.up, "y");
   EXPECT_EQ(file.at(0, 0), Vec3(0, -0.1, 1.4));
 }
 
@@ -85,7 +85,7 @@ TEST(CsvMotion, MalformedTextIsAnsweredWithLineExpectedAndFound) {
   EXPECT_EQ(answer("obj_x", "Hand_x"), "hand.csv:1: expected every column name once, found \"Hand_x\"");
   EXPECT_EQ(answer("obj_x", ""), "hand.csv:1: expected a name for column 6, found an empty cell");
   EXPECT_EQ(answer("frame,", "12,"), "hand.csv:1: expected a name for column 1, found \"12\"");
-  EXPECT_EQ(answer("time_s", "seconds"), "hand.csv: expected a column time_s or the option rate_hz, found neither");
+  EXPECT_EQ(answer("time_s", "seconds"), "hand.csv: expected a column time_s or the option rate, found neither");
   EXPECT_NE(answer("0.2,", "0.9,").find("even steps of about 0.45 s, found 0 followed by 0.1"), std::string::npos);
   EXPECT_EQ(complaint([] { (void)parse("a,b\n1,2\n"); }),
             "hand.csv: expected columns named NAME_x, NAME_y and NAME_z, found no such three");
@@ -114,12 +114,12 @@ TEST(CsvMotion, FourFormsOfRecordingsAreRead) {
   REACHCAST_NEED_MOCAP("omomo");
   const auto read = [](const std::string& name) { return read_motion((mocap_folder() / name).string()); };
   const MotionFile omomo = read("omomo/sub8_largebox_025.csv");
-  EXPECT_EQ(omomo.up, 'z');
+  EXPECT_EQ(omomo.guess.up, "z");
   EXPECT_NEAR(omomo.rate_hz, 30.0, 0.01);
   EXPECT_TRUE(omomo.find("obj") && omomo.channels.contains("obj_qw"));
   EXPECT_NEAR(read("lieblich_lifting/S1_dip1.csv").rate_hz, 60.0, 0.01);
-  EXPECT_EQ(read("becanovic_box_lifting/trials/S1_SquatLifting_rep1_lift.csv").up, 'y');
-  EXPECT_DOUBLE_EQ(read("roag_wall_reaching/p02_h_complete_data.csv").metres_per_unit, 0.001);
+  EXPECT_EQ(read("becanovic_box_lifting/trials/S1_SquatLifting_rep1_lift.csv").guess.up, "y");
+  EXPECT_DOUBLE_EQ(read("roag_wall_reaching/p02_h_complete_data.csv").guess.metres_per_unit, 0.001);
 }
 
 }  // namespace

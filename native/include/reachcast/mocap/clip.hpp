@@ -2,6 +2,7 @@
 /// A recording of others, as it was read: named points over time.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -19,6 +20,8 @@ struct Clip {
   std::vector<bool> derived;       ///< J flags: true where the point was computed from others and not recorded
   Points positions;                ///< F * J points, frames first, metres, z up, world of the recording; NaN = missing
   std::map<std::string, std::vector<double>> channels;  ///< other numeric columns, F values each (e.g. "obj_qw")
+  /// F * J flags, 1 where a gap was filled and nothing was recorded (see fill_gaps); empty: nowhere.
+  std::vector<std::uint8_t> filled{};
 
   [[nodiscard]] std::size_t joints() const { return names.size(); }
   [[nodiscard]] std::size_t frames() const { return names.empty() ? 0 : positions.size() / names.size(); }
