@@ -73,6 +73,8 @@ class Task:
 
 
 class Corpus:
+    meta = {"kind": "recorded"}
+
     @staticmethod
     def open(path: str) -> Corpus:
         with open(path, "rb"):

@@ -10,7 +10,6 @@ import fake_core
 import numpy as np
 from lift_cases import cuboid
 from mathutils import Euler, Matrix
-from reachcast import corpora
 from reachcast.scene.action_writer import Channel, write_action
 from reachcast.scene.measure import sample
 from reachcast.scene.read_rig import read_rig
@@ -218,10 +217,6 @@ class Refused(Scene):
             self.refused(f"The {name} must be", "5", **{name: 5})
             self.refused(f"The {name} has been removed", **{name: gone})
         self.refused("The corpus must be a path", "5", corpus=5)
-
-    def test_corpus(self) -> None:
-        if corpora.default_corpus() is None:
-            self.refused("corpus", corpus=None)
 
     def test_actions_that_cannot_be_replaced(self) -> None:
         self.predict()

@@ -290,6 +290,7 @@ def main():
         sys.exit("No phase was accepted: no corpus is written.")
     if not options.dry_run:
         corpus = rc.Corpus.create(str(options.out))
+        corpus.set_meta("kind", "recorded")
         corpus.add_reaches(accepted)
         if not options.forwards:
             corpus.add_reaches([reach.reversed() for reach in accepted])

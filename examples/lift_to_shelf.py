@@ -112,6 +112,7 @@ def report(stage: Stage, result: PredictionResult, options: argparse.Namespace) 
                     "grip_distance_m": shape.grip_distance, "mass_kg": shape.mass},
         },
         "corpus": os.fspath(options.corpus),
+        "corpus_kind": result.corpus_kind,
         "neighbours": [{"phase": near.phase, "id": near.id, "origin": near.origin, "mirrored": near.mirrored, "weight": near.weight,
                         "distances_m": dict(near.distances)} for near in result.neighbours],
         "outside_data": result.outside_data,
@@ -169,12 +170,13 @@ def write_results(draft: Path, stage: Stage, result: PredictionResult, options: 
 
 def summary(said: dict[str, Any], out: Path) -> str:
     got, frames = said["measured_in_evaluated_scene"], said["frames"]
-    where = "outside the recorded data: " + "; ".join(said["outside_reasons"]) if said["outside_data"] \
-        else "within the recorded data"
+    kind = said["corpus_kind"]
+    where = f"outside the {kind} data: " + "; ".join(said["outside_reasons"]) if said["outside_data"] \
+        else f"within the {kind} data"
     return "\n".join((
         f"{said['subject']['rig']} of {said['subject']['stature_m']:g} m carries {said['task']['box']['mass_kg']:g} kg "
         f"to {tuple(said['task']['shelf_m'])} m in {(frames['end'] - FIRST_FRAME) / FRAME_RATE:.1f} s",
-        f"learned from {len(said['neighbours'])} recorded motions; {where}",
+        f"learned from {len(said['neighbours'])} {kind} motions; {where}",
         f"box lands {1e6 * got['landing_m']:.1f} micrometres from the shelf's mark, hands keep within "
         f"{1e6 * got['held_m']:.1f} of their handles, the left foot moves {1e6 * got['left_foot_m']:.1f}",
         *(f"corrected: {line}" for line in said["corrections"]),

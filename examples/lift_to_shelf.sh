@@ -4,8 +4,7 @@ set -euo pipefail
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$ROOT/examples/setup.sh"
 
-MOCAP=${REACHCAST_MOCAP:-$ROOT/../shared/mocap}
-OUT=out CORPUS='' RIG=mannequin SHELF=(0.55 0.35 1.05) STATURE=1.75 QUICK=()
+OUT=out CORPUS=$ROOT/addon/reachcast/data/simulated.sqlite RIG=mannequin SHELF=(0.55 0.35 1.05) STATURE=1.75 QUICK=()
 
 usage() {
   cat <<'TEXT'
@@ -14,7 +13,7 @@ Predicts how a worker lifts a box from a low pallet to a shelf, and renders it w
     bash examples/lift_to_shelf.sh [--out DIR] [--corpus FILE] [--rig mannequin|rigify] [--shelf X Y Z] [--stature M]
 
   --out DIR       where the results go (default: out)
-  --corpus FILE   motions to learn from (default: built from $REACHCAST_MOCAP or ../shared/mocap into DIR/corpus.sqlite)
+  --corpus FILE   motions to learn from (default: the simulated corpus that ships with the add-on)
   --rig KIND      mannequin (default), or rigify: the human metarig of Blender's Rigify
   --shelf X Y Z   where the middle of the box's base ends, in metres: X to the worker's right, Y ahead, Z up
                   (default: 0.55 0.35 1.05)
@@ -58,23 +57,7 @@ check_arguments() {
   [[ $RIG = mannequin || $RIG = rigify ]] || wrong "--rig must be mannequin or rigify, not '$RIG'"
   for value in "${SHELF[@]}"; do need_number --shelf "$value"; done
   need_number --stature "$STATURE"
-  if [ -n "$CORPUS" ]; then
-    [ -f "$CORPUS" ] || wrong "the corpus '$CORPUS' is not a file"
-  elif [ ! -d "$MOCAP/omomo" ] && [ ! -d "$MOCAP/lieblich_lifting" ]; then
-    wrong "no recorded motions in '$MOCAP': give a corpus with --corpus FILE"
-  fi
-}
-
-# Beside its final place, then renamed: whoever reads corpus.sqlite finds a whole one.
-build_corpus() {
-  local draft=$OUT/.corpus-$$.sqlite
-  if ! logged corpus /usr/bin/python3 "$ROOT/examples/build_corpus.py" --mocap "$MOCAP" --out "$draft"; then
-    rm -f "$draft"*
-    fail "No corpus could be built from $MOCAP; see the lines above."
-  fi
-  CORPUS=$OUT/corpus.sqlite
-  mv -f "$draft" "$CORPUS"
-  echo "Corpus: $CORPUS, built from the recordings in $MOCAP"
+  [ -f "$CORPUS" ] || wrong "the corpus '$CORPUS' is not a file"
 }
 
 main() {
@@ -86,7 +69,6 @@ main() {
   OUT=$(cd "$OUT" && pwd)
   need_packages "${RUN_PACKAGES[@]}"
   build_release reachcast_core
-  [ -n "$CORPUS" ] || build_corpus
   # One argument per value with '=': a negative number is no option.
   blender -b --factory-startup --python-exit-code 1 --python "$ROOT/examples/lift_to_shelf.py" -- \
     --out="$OUT" --corpus="$(realpath "$CORPUS")" --rig="$RIG" --stature="$STATURE" \

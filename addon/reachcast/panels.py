@@ -7,6 +7,7 @@ import textwrap
 import bpy
 
 from . import path_editing
+from .corpora import default_corpus
 from .operators.edit_hand_path import (REACHCAST_OT_edit_hand_path, REACHCAST_OT_finish_hand_path,
                                        REACHCAST_OT_follow_targets)
 from .operators.predict_family import REACHCAST_OT_choose_percentile, REACHCAST_OT_predict_family
@@ -33,6 +34,8 @@ class REACHCAST_PT_lift(_Tab, bpy.types.Panel):
         for words, name in (("Rig", "rig"), ("does", "errand"), ("with", "box"), ("from", "home"), ("to", "shelf"),
                             ("coming", "approach"), ("past", "obstacles"), ("as in", "corpus")):
             _sentence_part(column, settings, words, name)
+        if not settings.corpus and default_corpus():
+            _words(column, "", "simulated, ships with it")
         blocking = [need for need in needs(settings) if need.reason]
         for need in blocking:
             _lines(self.layout, context, need.reason, "ERROR")
@@ -147,11 +150,12 @@ class REACHCAST_PT_result(_Tab, bpy.types.Panel):
             if (error := action.get(f"reachcast_{name}_error_m")) is not None:
                 _words(column, words, f"{error * 1000.0:.2f} mm off")
         _words(column, "Hands' path", action["reachcast_ways"].replace(", ", "; "))
+        kind = action["reachcast_corpus_kind"]
         if action["reachcast_outside_data"]:
             why = action["reachcast_outside_reasons"] or "the target"
-            _lines(self.layout, context, f"Outside the recorded data, take it with care: {why}", "ERROR")
+            _lines(self.layout, context, f"Outside the {kind} data, take it with care: {why}", "ERROR")
         else:
-            _lines(self.layout, context, "Within the recorded data.", "CHECKMARK")
+            _lines(self.layout, context, f"Within the {kind} data.", "CHECKMARK")
         _lines(self.layout, context, f"From motions {action['reachcast_neighbours']}", "COMMUNITY")
         if action["reachcast_corrections"]:
             _lines(self.layout, context, f"Corrected: {action['reachcast_corrections']}", "INFO")

@@ -91,7 +91,8 @@ class ReachcastSettings(bpy.types.PropertyGroup):
         name="Assets", default=False, description="Mark the new Actions as assets, for the asset browser")
     corpus: bpy.props.StringProperty(
         name="Corpus", subtype="FILE_PATH",
-        description="The file of recorded motions to learn from; empty takes the one that ships with the add-on")
+        description="The file of motions to learn from; empty takes the one that ships with the add-on, which is "
+                    "simulated: nobody was recorded for it")
     bone_map: bpy.props.StringProperty(
         name="Bone Map", subtype="FILE_PATH",
         description="A JSON file that says which bone is which; empty recognises the rigs of many tools by their names")

@@ -62,7 +62,7 @@ def meshes_in(collection: bpy.types.Collection | None) -> list[bpy.types.Object]
 
 
 def summary(result: PredictionResult) -> str:
-    where = "outside the recorded data" if result.outside_data else "within the recorded data"
+    where = f"{'outside' if result.outside_data else 'within'} the {result.corpus_kind} data"
     landing = f", lands within {result.errors['landing'] * 1000:.2f} mm" if "landing" in result.errors else ""
     return (f"'{result.action}': frames {result.first_frame} to {result.frames['end']}{landing}, from "
             f"{len(result.neighbours)} motions, {where}")

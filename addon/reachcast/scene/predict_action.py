@@ -49,6 +49,7 @@ class PredictionResult:
     #: (phase, what its path of the hands comes from: deviation, bezier, published or given), one per phase
     ways: tuple[tuple[str, str], ...]
     errors: Mapping[str, float]                           #: metres: landing (if placed), grip (if held), pose
+    corpus_kind: str                                      #: what was learned from: "recorded", "simulated", ...
 
 
 def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: object = None,
@@ -98,7 +99,8 @@ def describe(solved: Solved, rig: str, action: bpy.types.Action, box_action: bpy
                         near.phase)
               for near in motion.neighbours),
         motion.outside_data, tuple(map(str, motion.outside_reasons)), tuple(map(_said, motion.corrections)),
-        tuple(zip((phase for phase, _, _ in motion.phases), motion.ways)), MappingProxyType(dict(solved.errors)))
+        tuple(zip((phase for phase, _, _ in motion.phases), motion.ways)), MappingProxyType(dict(solved.errors)),
+        solved.corpus_kind)
     _label(action, result)
     return result
 
@@ -126,6 +128,7 @@ def _label(action: bpy.types.Action, result: PredictionResult) -> None:
         action[event] = frame
     action["reachcast_events"] = ", ".join(result.frames)
     action["reachcast_first_frame"] = result.first_frame
+    action["reachcast_corpus_kind"] = result.corpus_kind
     action["reachcast_outside_data"] = result.outside_data
     action["reachcast_neighbours"] = ", ".join(str(near.id) for near in result.neighbours)
     action["reachcast_outside_reasons"] = "; ".join(result.outside_reasons)

@@ -51,6 +51,7 @@ class Solved:
     joints: Array                   #: (F, 27, 3) world
     places: tuple[Array, Array]     #: of the box: origins (F, 3) and turns (F, 3, 3), world
     errors: Mapping[str, float]     #: metres: landing (if placed), grip (if held), pose
+    corpus_kind: str                #: "recorded", "simulated", ... as the corpus says; "recorded" where it does not
 
 
 def prepare(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: object = None,
@@ -87,7 +88,8 @@ def solve(prepared: Prepared, **options: object) -> Solved:
     joints = skeleton.to_world(np.asarray(motion.positions, float))
     pose = retarget(skeleton, joints)
     places = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
-    return Solved(motion, pose, joints, places, _errors(skeleton, lift, motion, pose, joints, places))
+    return Solved(motion, pose, joints, places, _errors(skeleton, lift, motion, pose, joints, places),
+                  prepared.corpus.meta["kind"] or "recorded")
 
 
 def _refuse_owners(rig: bpy.types.Object, skeleton: Skeleton, box: bpy.types.Object | None,

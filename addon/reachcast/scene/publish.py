@@ -29,7 +29,7 @@ def add_markers(result: PredictionResult, scene: bpy.types.Scene) -> list[str]:
 
 def mark_assets(result: PredictionResult) -> None:
     """Puts the Actions into the asset browser's Current File, with what they rest on as their description."""
-    where = "outside the recorded data" if result.outside_data else "within the recorded data"
+    where = f"{'outside' if result.outside_data else 'within'} the {result.corpus_kind} data"
     for name in filter(None, (result.action, result.box_action)):
         action = bpy.data.actions[name]
         action.asset_mark()

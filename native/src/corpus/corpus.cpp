@@ -53,24 +53,21 @@ void put_meta(Connection& connection, std::string_view key, std::string_view val
   statement.run();
 }
 
-void write_empty_corpus(Connection& connection, std::string_view created_by) {
+void write_empty_corpus(Connection& connection, std::string_view created_by, Precision precision) {
   Transaction transaction(connection, Transaction::Kind::write);
   connection.execute("PRAGMA application_id = " + std::to_string(kCorpusApplicationId) +
                      "; PRAGMA user_version = " + std::to_string(kCorpusSchemaVersion));
   connection.execute(rows::schema());
   put_meta(connection, "schema_version", std::to_string(kCorpusSchemaVersion));
   put_meta(connection, "created_by", created_by);
+  put_meta(connection, "precision", precision == Precision::compact ? "compact" : "exact");
   put_meta(connection, "kind", "");
   put_meta(connection, "description", "");
   transaction.commit();
 }
 
-std::int64_t code_length(Connection& connection) {
-  return connection.integer("SELECT CAST(value AS INTEGER) FROM meta WHERE key = 'code_length'");
-}
-
-void require_code(const MotionCode& code, std::size_t position) {
-  const std::string complaint = rows::complaint(code);
+void require_code(const MotionCode& code, std::size_t position, Precision precision) {
+  const std::string complaint = rows::complaint(code, precision);
   if (complaint.empty()) return;
   throw std::invalid_argument("codes[" + std::to_string(position) + "]." + complaint);
 }
@@ -101,14 +98,14 @@ Corpus::Corpus(Corpus&& other) noexcept = default;
 Corpus& Corpus::operator=(Corpus&& other) noexcept = default;
 Corpus::~Corpus() = default;
 
-Corpus Corpus::create(const fs::path& path, std::string_view created_by) {
+Corpus Corpus::create(const fs::path& path, std::string_view created_by, Precision precision) {
   opening::claim_file(path);
   auto state = std::make_unique<State>();
   state->path = path;
   try {
     reporting(path, [&] {
       state->connection = opening::connect(path, true);
-      write_empty_corpus(*state->connection, created_by);
+      write_empty_corpus(*state->connection, created_by, precision);
     });
   } catch (...) {
     state->connection.reset();
@@ -136,20 +133,21 @@ Corpus Corpus::open_for_writing(const fs::path& path) {
 std::vector<std::int64_t> Corpus::add(std::span<const MotionCode> codes) {
   const std::scoped_lock lock(state_->mutex);
   Connection& connection = require_writable(state_->connection, state_->path);
-  for (std::size_t i = 0; i < codes.size(); ++i) require_code(codes[i], i);
+  const Precision precision = reporting(state_->path, [&] { return rows::format_of(connection).precision; });
+  for (std::size_t i = 0; i < codes.size(); ++i) require_code(codes[i], i, precision);
   if (codes.empty()) return {};
   return reporting(state_->path, [&] {
     Transaction transaction(connection, Transaction::Kind::write);
-    std::int64_t length = code_length(connection);
-    if (length == 0) {
-      length = codes.front().coefficients.size();
-      put_meta(connection, "code_length", std::to_string(length));
+    rows::Format format = rows::format_of(connection);
+    if (format.code_length == 0) {
+      format.code_length = codes.front().coefficients.size();
+      put_meta(connection, "code_length", std::to_string(format.code_length));
     }
-    rows::Writer writer(connection);
+    rows::Writer writer(connection, format);
     std::vector<std::int64_t> ids;
     ids.reserve(codes.size());
     for (const MotionCode& code : codes) {
-      require_length(code, ids.size(), length, state_->path);
+      require_length(code, ids.size(), format.code_length, state_->path);
       ids.push_back(writer.add(code));
     }
     transaction.commit();
@@ -170,10 +168,10 @@ std::vector<StoredMotion> Corpus::motions() const {
   Connection& connection = require_open(state_->connection, state_->path);
   return reporting(state_->path, [&] {
     const Transaction snapshot(connection, Transaction::Kind::read);
-    const std::int64_t length = code_length(connection);
+    const rows::Format format = rows::format_of(connection);
     Statement row(connection, rows::select(true));
     std::vector<StoredMotion> motions;
-    while (row.step()) motions.push_back(read_row(state_->path, [&] { return rows::read_motion(row, length); }));
+    while (row.step()) motions.push_back(read_row(state_->path, [&] { return rows::read_motion(row, format); }));
     return motions;
   });
 }
@@ -213,7 +211,7 @@ std::vector<StoredMotion> Corpus::load(std::span<const std::int64_t> ids) const 
   Connection& connection = require_open(state_->connection, state_->path);
   return reporting(state_->path, [&] {
     const Transaction snapshot(connection, Transaction::Kind::read);
-    const std::int64_t length = code_length(connection);
+    const rows::Format format = rows::format_of(connection);
     Statement row(connection, rows::select(true, "WHERE m.id = ?"));
     std::vector<StoredMotion> motions;
     motions.reserve(ids.size());
@@ -221,7 +219,7 @@ std::vector<StoredMotion> Corpus::load(std::span<const std::int64_t> ids) const 
       row.bind(1, id);
       if (!row.step())
         throw std::invalid_argument(quoted(state_->path) + "has no motion with id " + std::to_string(id));
-      motions.push_back(read_row(state_->path, [&] { return rows::read_motion(row, length); }));
+      motions.push_back(read_row(state_->path, [&] { return rows::read_motion(row, format); }));
       row.reset();
     }
     return motions;
@@ -242,7 +240,7 @@ std::map<std::string, std::string> Corpus::meta() const {
 void Corpus::set_meta(std::string_view key, std::string_view value) {
   const std::scoped_lock lock(state_->mutex);
   Connection& connection = require_writable(state_->connection, state_->path);
-  if (key.empty() || key == "schema_version" || key == "created_by" || key == "code_length") {
+  if (key.empty() || key == "schema_version" || key == "created_by" || key == "code_length" || key == "precision") {
     throw std::invalid_argument("meta key '" + std::string(key) + "' cannot be set: the corpus keeps it itself");
   }
   reporting(state_->path, [&] { put_meta(connection, key, value); });

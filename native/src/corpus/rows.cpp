@@ -7,10 +7,15 @@
 #include <stdexcept>
 #include <utility>
 
+#include "compact.hpp"
+#include "reachcast/motion/encode.hpp"
+#include "reachcast/motion/mirror_code.hpp"
+
 namespace reachcast::rows {
 
 const char* schema() {
   // Coefficients have a table of their own: a pass over `motions` then reads little, however long the codes are.
+  // `original` is set where `data` holds but the difference from the mirror image of another motion.
   return R"sql(
 CREATE TABLE meta (
   key TEXT PRIMARY KEY NOT NULL,
@@ -42,6 +47,7 @@ CREATE TABLE motions (
 ) STRICT;
 CREATE TABLE coefficients (
   motion INTEGER PRIMARY KEY REFERENCES motions (id),
+  original INTEGER REFERENCES motions (id),
   data BLOB NOT NULL
 ) STRICT;
 )sql";
@@ -64,6 +70,8 @@ enum Column {
   kTarget = kHome + 3,
   kGripDistance = kTarget + 3,
   kData,
+  kOriginal,
+  kOriginalData,
 };
 
 [[noreturn]] void damaged(const sqlite::Statement& row, const std::string& what) {
@@ -96,7 +104,21 @@ Subject read_subject(const sqlite::Statement& row) {
   return subject;
 }
 
-Eigen::VectorXd read_coefficients(const sqlite::Statement& row, std::int64_t code_length) {
+Eigen::VectorXd read_compact(const sqlite::Statement& row, std::int64_t code_length) {
+  const auto count = static_cast<Eigen::Index>(code_length);
+  Eigen::VectorXd base;
+  try {
+    if (!row.is_null(kOriginal)) {
+      if (count != reachcast::code_length()) throw std::runtime_error("has an original of another version");
+      base = mirror_image(compact::unpack(row.blob(kOriginalData), count, {}));
+    }
+    return compact::unpack(row.blob(kData), count, base);
+  } catch (const std::runtime_error& error) {
+    damaged(row, error.what());
+  }
+}
+
+Eigen::VectorXd read_exact(const sqlite::Statement& row, std::int64_t code_length) {
   const std::span<const std::byte> bytes = row.blob(kData);
   if (std::cmp_not_equal(bytes.size(), 8 * code_length)) {
     damaged(row, "has " + std::to_string(bytes.size()) + " bytes of coefficients, expected " +
@@ -130,18 +152,35 @@ std::string select(bool with_coefficients, const std::string& condition) {
   return std::string(
              "SELECT m.id, m.subject, s.stature_m, s.sex, s.age_years, s.mass_kg, m.phase, o.origin, m.mirrored,"
              " m.duration_s, m.home_x, m.home_y, m.home_z, m.target_x, m.target_y, m.target_z, m.grip_distance_m") +
-         (with_coefficients ? ", c.data" : "") +
+         (with_coefficients ? ", c.data, c.original, d.data" : "") +
          " FROM motions m LEFT JOIN subjects s ON s.id = m.subject LEFT JOIN sources o ON o.id = m.source" +
-         (with_coefficients ? " LEFT JOIN coefficients c ON c.motion = m.id " : " ") + condition + " ORDER BY m.id";
+         (with_coefficients
+              ? " LEFT JOIN coefficients c ON c.motion = m.id LEFT JOIN coefficients d ON d.motion = c.original "
+              : " ") +
+         condition + " ORDER BY m.id";
 }
 
-std::string complaint(const MotionCode& code) {
+Format format_of(sqlite::Connection& connection) {
+  Format format;
+  format.code_length = connection.integer("SELECT CAST(value AS INTEGER) FROM meta WHERE key = 'code_length'");
+  const std::int64_t is_compact =
+      connection.integer("SELECT count(*) FROM meta WHERE key = 'precision' AND value = 'compact'");
+  format.precision = is_compact != 0 ? Precision::compact : Precision::exact;
+  return format;
+}
+
+std::string complaint(const MotionCode& code, Precision precision) {
   if (code.origin.empty()) return "origin is empty, expected the file and frames that identify the motion";
   if (!is_finite(code.home)) return "home is not finite";
   if (!is_finite(code.target)) return "target is not finite";
   if (code.coefficients.size() == 0) return "coefficients is empty, expected at least 1 value";
   for (Eigen::Index i = 0; i < code.coefficients.size(); ++i) {
-    if (std::isfinite(code.coefficients[i])) continue;
+    const double value = code.coefficients[i];
+    if (std::isfinite(value) && (precision == Precision::exact || std::abs(value) <= compact::kLargest)) continue;
+    if (std::isfinite(value)) {
+      return "coefficients[" + std::to_string(i) + "] is " + std::to_string(value) +
+             ", a compact corpus holds no value beyond " + std::to_string(compact::kLargest);
+    }
     return "coefficients[" + std::to_string(i) + "] is " + std::to_string(code.coefficients[i]) +
            ", expected a finite number";
   }
@@ -153,7 +192,10 @@ std::string complaint(const MotionCode& code) {
   return found;
 }
 
-std::vector<std::byte> to_blob(const Eigen::VectorXd& coefficients) {
+namespace {
+
+/// Little-endian on every machine, eight bytes per number.
+std::vector<std::byte> exact_blob(const Eigen::VectorXd& coefficients) {
   std::vector<std::byte> bytes(static_cast<std::size_t>(coefficients.size()) * 8);
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const auto bits = std::bit_cast<std::uint64_t>(coefficients[static_cast<Eigen::Index>(i / 8)]);
@@ -161,6 +203,8 @@ std::vector<std::byte> to_blob(const Eigen::VectorXd& coefficients) {
   }
   return bytes;
 }
+
+}  // namespace
 
 MotionSummary read_summary(const sqlite::Statement& row) {
   MotionSummary motion;
@@ -180,7 +224,7 @@ MotionSummary read_summary(const sqlite::Statement& row) {
   return motion;
 }
 
-StoredMotion read_motion(const sqlite::Statement& row, std::int64_t code_length) {
+StoredMotion read_motion(const sqlite::Statement& row, const Format& format) {
   MotionSummary summary = read_summary(row);
   MotionCode code;
   code.subject = summary.subject;
@@ -191,12 +235,14 @@ StoredMotion read_motion(const sqlite::Statement& row, std::int64_t code_length)
   code.home = summary.home;
   code.target = summary.target;
   code.grip_distance_m = summary.grip_distance_m;
-  code.coefficients = read_coefficients(row, code_length);
+  code.coefficients = format.precision == Precision::compact ? read_compact(row, format.code_length)
+                                                             : read_exact(row, format.code_length);
   return {summary.id, std::move(code)};
 }
 
-Writer::Writer(sqlite::Connection& connection)
+Writer::Writer(sqlite::Connection& connection, const Format& format)
     : connection_(connection),
+      format_(format),
       find_subject_(connection,
                     "SELECT id FROM subjects WHERE stature_m = ? AND sex IS ? AND age_years IS ? AND mass_kg IS ?"),
       insert_subject_(connection, "INSERT INTO subjects (stature_m, sex, age_years, mass_kg) VALUES (?, ?, ?, ?)"),
@@ -206,7 +252,8 @@ Writer::Writer(sqlite::Connection& connection)
       insert_motion_(connection,
                      "INSERT INTO motions (source, mirrored, phase, subject, duration_s, home_x, home_y, home_z,"
                      " target_x, target_y, target_z, grip_distance_m) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
-      insert_coefficients_(connection, "INSERT INTO coefficients (motion, data) VALUES (?, ?)") {}
+      insert_coefficients_(connection, "INSERT INTO coefficients (motion, data, original) VALUES (?, ?, ?)"),
+      find_coefficients_(connection, "SELECT data FROM coefficients WHERE motion = ? AND original IS NULL") {}
 
 namespace {
 
@@ -242,13 +289,35 @@ std::int64_t Writer::source_id(const std::string& origin) {
 
 std::int64_t Writer::add(const MotionCode& code) {
   const std::int64_t source = source_id(code.origin);
+  const std::int64_t id = find_motion(source, code.is_mirrored, code.phase);
+  return id != 0 ? id : insert(code, source);
+}
+
+std::int64_t Writer::find_motion(std::int64_t source, bool mirrored, Phase phase) {
   find_motion_.bind(1, source);
-  find_motion_.bind(2, std::int64_t{code.is_mirrored});
-  find_motion_.bind(3, phase_name(code.phase));
-  const bool found = find_motion_.step();
-  const std::int64_t id = found ? find_motion_.integer(0) : 0;
+  find_motion_.bind(2, std::int64_t{mirrored});
+  find_motion_.bind(3, phase_name(phase));
+  const std::int64_t id = find_motion_.step() ? find_motion_.integer(0) : 0;
   find_motion_.reset();
-  return found ? id : insert(code, source);
+  return id;
+}
+
+std::int64_t Writer::original_of(const MotionCode& code, std::int64_t source) {
+  const bool may_have_one =
+      format_.precision == Precision::compact && code.is_mirrored && code.coefficients.size() == code_length();
+  return may_have_one ? find_motion(source, false, code.phase) : 0;
+}
+
+std::vector<std::byte> Writer::to_blob(const MotionCode& code, std::int64_t original) {
+  if (format_.precision == Precision::exact) return exact_blob(code.coefficients);
+  const Eigen::VectorXd coefficients = compact::rounded(code.coefficients);
+  if (original == 0) return compact::pack(coefficients, {});
+  find_coefficients_.bind(1, original);
+  if (!find_coefficients_.step())
+    throw std::runtime_error("motion " + std::to_string(original) + " has no coefficients");
+  const Eigen::VectorXd base = mirror_image(compact::unpack(find_coefficients_.blob(0), code.coefficients.size(), {}));
+  find_coefficients_.reset();
+  return compact::pack(coefficients, base);
 }
 
 std::int64_t Writer::insert(const MotionCode& code, std::int64_t source) {
@@ -264,9 +333,15 @@ std::int64_t Writer::insert(const MotionCode& code, std::int64_t source) {
   insert_motion_.bind(12, code.grip_distance_m);
   insert_motion_.run();
   const std::int64_t id = connection_.last_id();
-  const std::vector<std::byte> data = to_blob(code.coefficients);
+  const std::int64_t original = original_of(code, source);
+  const std::vector<std::byte> data = to_blob(code, original);
   insert_coefficients_.bind(1, id);
   insert_coefficients_.bind(2, std::span<const std::byte>(data));
+  if (original != 0) {
+    insert_coefficients_.bind(3, original);
+  } else {
+    insert_coefficients_.bind(3, std::optional<double>());
+  }
   insert_coefficients_.run();
   return id;
 }

@@ -163,7 +163,8 @@ TEST(Corpus, KeepsMetadata) {
     corpus.set_meta("licence", "");
   }
   const std::map<std::string, std::string> expected{{"created_by", "reachcast 9.8"},
-                                                    {"schema_version", "1"},
+                                                    {"schema_version", "2"},
+                                                    {"precision", "exact"},
                                                     {"kind", "recorded"},
                                                     {"description", "Zwölf Personen"},
                                                     {"licence", ""}};

@@ -25,12 +25,20 @@
 
 namespace reachcast {
 
-inline constexpr int kCorpusSchemaVersion = 1;                    ///< PRAGMA user_version
+inline constexpr int kCorpusSchemaVersion = 2;                    ///< PRAGMA user_version
 inline constexpr std::int32_t kCorpusApplicationId = 0x52434350;  ///< PRAGMA application_id: "RCCP"
 inline constexpr std::size_t kRememberedCodes = 4096;
 inline constexpr int kBusyTimeout_ms = 30'000;  ///< how long to wait for another process
 
-/// Comes back bit for bit as it was added, except that -0.0 becomes 0.0 outside the coefficients (SQLite's REAL).
+/// How coefficients are kept: as they are, or as multiples of kCompactStep in a fifth of the bytes, mirror images as
+/// their difference from what `mirror_image` makes of the motion. Then a coefficient comes back with an error of at
+/// most half a step, and joints with 0.04 mm in the median and 0.2 mm in 99 of 100 places (recorded lifts; 3 mm at
+/// worst, an elbow that is nearly straight).
+enum class Precision { exact, compact };
+inline constexpr double kCompactStep = 1.0 / 4096.0;
+
+/// Comes back bit for bit as it was added, except that -0.0 becomes 0.0 outside the coefficients (SQLite's REAL), and
+/// except for the coefficients of a compact corpus.
 struct StoredMotion {
   std::int64_t id = 0;  ///< > 0, grows in the order of adding, never reused
   MotionCode code;
@@ -40,7 +48,8 @@ struct StoredMotion {
 class Corpus {
  public:
   /// A new, empty corpus; fails if anything exists at `path`. `created_by` is kept in the metadata.
-  [[nodiscard]] static Corpus create(const std::filesystem::path& path, std::string_view created_by = "reachcast");
+  [[nodiscard]] static Corpus create(const std::filesystem::path& path, std::string_view created_by = "reachcast",
+                                     Precision precision = Precision::exact);
   /// Read-only. An empty corpus is legal.
   [[nodiscard]] static Corpus open(const std::filesystem::path& path);
   /// Also repairs what a crashed writer left half done.
@@ -65,10 +74,11 @@ class Corpus {
   /// The codes of these ids, in their order; repeated ids are legal.
   [[nodiscard]] std::vector<StoredMotion> load(std::span<const std::int64_t> ids) const;
 
-  /// Always there: "schema_version", "created_by", "kind" (such as "recorded" or "simulated"; "" until it is set),
-  /// "description"; and "code_length", the number of coefficients, once a motion was added.
+  /// Always there: "schema_version", "created_by", "precision" ("exact" or "compact"), "kind" (such as "recorded" or
+  /// "simulated";
+  /// "" until it is set), "description"; and "code_length", the number of coefficients, once a motion was added.
   [[nodiscard]] std::map<std::string, std::string> meta() const;
-  /// Any key except "schema_version", "created_by" and "code_length", which the corpus keeps itself.
+  /// Any key except "schema_version", "created_by", "precision" and "code_length", which the corpus keeps itself.
   void set_meta(std::string_view key, std::string_view value);
 
   [[nodiscard]] const std::filesystem::path& path() const;

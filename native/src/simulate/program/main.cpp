@@ -67,7 +67,7 @@ Options parse(int count, char** words) {
 int main(int count, char** words) {
   try {
     const Options options = parse(count, words);
-    Corpus corpus = Corpus::create(options.out, "reachcast_simulate");
+    Corpus corpus = Corpus::create(options.out, "reachcast_simulate", Precision::compact);
     corpus.set_meta("kind", "simulated");
     corpus.set_meta("description", kDescription);
     corpus.set_meta("seed", std::to_string(options.seed));
