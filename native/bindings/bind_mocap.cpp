@@ -7,8 +7,10 @@
 #include <stdexcept>
 
 #include "module.hpp"
+#include "reachcast/mocap/gaps.hpp"
 #include "reachcast/mocap/joint_map.hpp"
 #include "reachcast/mocap/motion_file.hpp"
+#include "reachcast/mocap/tracking.hpp"
 #include "reachcast/motion/cut_reach.hpp"
 
 namespace py = pybind11;
@@ -21,6 +23,7 @@ using reachcast::CutOptions;
 using reachcast::Guess;
 using reachcast::Joint;
 using reachcast::JointMap;
+using reachcast::JointSource;
 using reachcast::kJointCount;
 using reachcast::MotionFile;
 using reachcast::MotionFileOptions;
@@ -90,26 +93,67 @@ MotionFile read_motion(const std::string& path, std::optional<double> metres_per
   return reachcast::read_motion(path, options);
 }
 
-/// A preset's name, or pairs of a canonical joint and the name, or the names to be averaged, of its recorded points.
+using Names = std::vector<std::string>;
+
+/// A dict with "points" and, where they are not the joint itself, "offset" and its axes.
+JointSource joint_source(const py::dict& given) {
+  JointSource source;
+  for (const auto& [key_object, value] : given) {
+    const auto key = key_object.cast<std::string>();
+    if (key == "points") {
+      const bool is_text = py::isinstance<py::str>(value);
+      source.points = is_text ? reachcast::parse_mean(value.cast<std::string>()) : value.cast<Names>();
+    } else if (key == "offset") {
+      const auto offset = value.cast<std::array<double, 3>>();
+      source.offset = {offset[0], offset[1], offset[2]};
+    } else if (key == "scale" || key == "across" || key == "ahead" || key == "along") {
+      reachcast::PointSpan& span = key == "scale"    ? source.scale
+                                   : key == "across" ? source.across
+                                   : key == "ahead"  ? source.ahead
+                                                     : source.along;
+      span = reachcast::parse_span(value.cast<std::string>());
+    } else {
+      throw std::invalid_argument("map: a source has points, offset, scale, across, ahead and along, not '" + key +
+                                  "'");
+    }
+  }
+  return source;
+}
+
+/// A name, names to be averaged, a dict, or dicts of which the first that is recorded is taken.
+std::vector<JointSource> joint_sources(const py::object& given) {
+  if (py::isinstance<py::str>(given)) return {JointSource(Names{given.cast<std::string>()})};
+  if (py::isinstance<py::dict>(given)) return {joint_source(given)};
+  const auto list = given.cast<std::vector<py::object>>();
+  const auto is_dict = [](const py::object& item) { return py::isinstance<py::dict>(item); };
+  if (list.empty() || !std::all_of(list.begin(), list.end(), is_dict)) return {JointSource(given.cast<Names>())};
+  std::vector<JointSource> alternatives;
+  for (const py::object& item : list) alternatives.push_back(joint_source(item));
+  return alternatives;
+}
+
+/// A preset's name, the path of a JSON file, or a dict or pairs of a canonical joint and its sources.
 JointMap joint_map(const py::object& map) {
   if (py::isinstance<py::str>(map)) {
     const auto name = map.cast<std::string>();
     std::string known;
+    if (name.ends_with(".json")) {
+      const py::object file = py::module_::import("pathlib").attr("Path")(name);
+      return joint_map(py::module_::import("json").attr("loads")(file.attr("read_text")("encoding"_a = "utf-8")));
+    }
     for (const JointMap& preset : reachcast::joint_map_presets()) {
       if (preset.name == name) return preset;
       known += (known.empty() ? "" : ", ") + preset.name;
     }
-    throw std::invalid_argument("map must be one of " + known + ", or pairs, not '" + name + "'");
+    throw std::invalid_argument("map must be one of " + known + ", a .json file, or pairs, not '" + name + "'");
   }
+  if (py::isinstance<py::dict>(map)) return joint_map(map.attr("items")());
   JointMap result{"given", {}};
-  const py::object pairs = py::isinstance<py::dict>(map) ? map.attr("items")() : map;
-  for (const py::handle pair : pairs) try {
-      const auto [joint_name, points] = pair.cast<std::pair<std::string, py::object>>();
+  for (const py::handle pair : map) try {
+      const auto [joint_name, sources] = pair.cast<std::pair<std::string, py::object>>();
       const std::optional<Joint> joint = reachcast::find_joint(joint_name);
       if (!joint) throw std::invalid_argument("map: '" + joint_name + "' is not a canonical joint");
-      const bool is_single = py::isinstance<py::str>(points);
-      result.sources.emplace_back(*joint, is_single ? std::vector<std::string>{points.cast<std::string>()}
-                                                    : points.cast<std::vector<std::string>>());
+      for (JointSource& source : joint_sources(sources)) result.sources.emplace_back(*joint, std::move(source));
     } catch (const py::cast_error&) {
       throw std::invalid_argument("map: each entry is a canonical joint and the name or names of its points; found " +
                                   py::repr(pair).cast<std::string>());
@@ -224,6 +268,36 @@ void bind_reach(py::module_& m) {
       });
 }
 
+MotionFile fill_gaps_of_file(const MotionFile& file, double limit_s) {
+  MotionFile result = file;
+  static_cast<Clip&>(result) = reachcast::fill_gaps(file, limit_s);
+  return result;
+}
+
+void bind_repair(py::module_& m) {
+  constexpr const char* help =
+      "The clip with gaps of at most limit_s seconds filled by cubics and marked in .filled; longer ones, and those "
+      "at\n"
+      "an end of the recording, stay NaN.";
+  m.def("fill_gaps", &fill_gaps_of_file, "clip"_a, "limit_s"_a = 0.2, help);
+  m.def("fill_gaps", &reachcast::fill_gaps, "clip"_a, "limit_s"_a = 0.2, help);
+  const reachcast::TrackingLimits usual;
+  m.def(
+      "check_tracking",
+      [](const Clip& clip, double acceleration, double jump, double frozen, double stretch) {
+        py::list faults;
+        for (const auto& fault : reachcast::check_tracking(clip, {acceleration, jump, frozen, stretch})) {
+          faults.append(py::make_tuple(text(fault.joint), fault.first, fault.last, text(fault.reason)));
+        }
+        return faults;
+      },
+      "clip"_a, py::kw_only(), "acceleration"_a = usual.acceleration, "jump"_a = usual.jump_m,
+      "frozen"_a = usual.frozen_s, "stretch"_a = usual.stretch,
+      "What no body does, as a list of (joint, first frame, last frame, reason): points that jump (more than\n"
+      "acceleration m/s^2 and jump m off), stand exactly still for frozen s while others move, or change places with\n"
+      "the other side; in canonical clips also limbs off their median length by more than the part stretch.");
+}
+
 }  // namespace
 
 void bind_mocap(py::module_& m) {
@@ -240,8 +314,23 @@ void bind_mocap(py::module_& m) {
       "(None: nothing is turned); skeleton: the .asf of an .amc (None: looked for beside it).");
   m.def(
       "canonical", &canonical, "clip"_a, "map"_a = py::none(),
-      "The clip in the 27 canonical joints, missing ones derived. map: the name of a preset, or a dict or pairs of a\n"
-      "canonical joint and a recorded name (or several, to be averaged); None detects the preset.");
+      "The clip in the 27 canonical joints, missing ones derived. map: the name of a preset, the path of a .json file, "
+      "or\n"
+      "a dict or pairs of a canonical joint and where it comes from; None detects the preset. A joint comes from a\n"
+      "recorded name, several (their mean), or a dict {'points': 'A+B', 'offset': [right, forward, up], 'across': "
+      "'L>R',\n"
+      "'ahead': 'BACK>FRONT' or 'along': 'BELOW>ABOVE', 'scale': 'A>B'}: the mean moved by an offset in metres, or in\n"
+      "the median distance of 'scale', in axes that lead from points to points (without ahead and along, up is\n"
+      "vertical). A list of dicts gives alternatives: the first whose points are all recorded is taken.");
+  m.def(
+      "joint_map_names",
+      [] {
+        std::vector<std::string> names;
+        for (const JointMap& preset : reachcast::joint_map_presets()) names.push_back(preset.name);
+        return names;
+      },
+      "Names of the joint maps built in.");
+  bind_repair(m);
   m.def("cut_reach", &cut_reach, "clip"_a, "first"_a, "last"_a, "subject"_a, "phase"_a, "origin"_a = "", py::kw_only(),
         "floor_z"_a = py::none(), "longest_gap_s"_a = CutOptions{}.longest_gap_s,
         "Frames first to last of a canonical clip as a Reach in the body frame of frame first.");

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "mocap_cases.hpp"
 #include "reachcast/mocap/joint_map.hpp"
@@ -107,6 +108,92 @@ TEST(Canonical, AMapMayAverageAndOfferAlternativesAndIgnoreNamespaces) {
   const Clip result = to_canonical(clip, map);
   EXPECT_LT(glm::distance(at(result, l5s1), Vec3(0, 0, 0.9)), kTolerance_m);
   EXPECT_TRUE(result.derived[index(l5s1)]);
+}
+
+/// The sources of lieblich, with another one for the left knee before them.
+JointMap with_left_knee(const JointSource& knee) {
+  JointMap map = *std::find_if(joint_map_presets().begin(), joint_map_presets().end(),
+                               [](const JointMap& preset) { return preset.name == "lieblich"; });
+  map.sources.insert(map.sources.begin(), {left_knee, knee});
+  return map;
+}
+
+TEST(Canonical, AnOffsetMovesAMarkerToItsJoint) {
+  JointSource knee{"Lknee"};
+  knee.offset = {0.05, 0.02, -0.01};
+  knee.across = parse_span("Lhip>Rhip");
+  EXPECT_LT(glm::distance(at(to_canonical(standing_person(), with_left_knee(knee)), left_knee),
+                          Vec3(-0.1, 0, 0.5) + Vec3(0.05, 0.02, -0.01)),
+            kTolerance_m);
+  EXPECT_TRUE(to_canonical(standing_person(), with_left_knee(knee)).derived[index(left_knee)]);
+  // The axes turn with the body.
+  Clip turned = standing_person();
+  for (Vec3& p : turned.positions) p = {-p.y, p.x, p.z};
+  EXPECT_LT(glm::distance(at(to_canonical(turned, with_left_knee(knee)), left_knee),
+                          Vec3(0, -0.1, 0.5) + Vec3(-0.02, 0.05, -0.01)),
+            kTolerance_m);
+}
+
+TEST(Canonical, OffsetAxesFollowAheadAndAlongAndScale) {
+  JointSource knee{"Lknee"};
+  knee.offset = {0.0, 0.0, 0.5};
+  knee.scale = parse_span("Lank>Lknee");
+  knee.across = parse_span("Lhip>Rhip");
+  knee.along = parse_span("Leb>Lw");  // the forearm points forward: that is "up" here
+  EXPECT_LT(glm::distance(at(to_canonical(standing_person(), with_left_knee(knee)), left_knee), Vec3(-0.1, 0.21, 0.5)),
+            kTolerance_m);
+  knee.along = {};
+  knee.ahead = parse_span("Leb+Reb>Lw+Rw");
+  EXPECT_LT(glm::distance(at(to_canonical(standing_person(), with_left_knee(knee)), left_knee), Vec3(-0.1, 0.0, 0.71)),
+            kTolerance_m);
+}
+
+TEST(Canonical, FaultyMapsAreNamed) {
+  const auto answer = [](const JointSource& knee) {
+    return complaint([&] { (void)to_canonical(standing_person(), with_left_knee(knee)); });
+  };
+  JointSource knee{"Lknee"};
+  knee.offset = {0.1, 0, 0};
+  EXPECT_EQ(answer(knee), "map: left_knee has an offset, but no 'across' to say which way it points");
+  knee.across = parse_span("Lhip>Rhip");
+  knee.offset.z = kMissing;
+  EXPECT_EQ(answer(knee), "map: left_knee has an offset that is not a finite vector of at most 5");
+  EXPECT_EQ(answer(JointSource{}), "map: left_knee names no point");
+  EXPECT_EQ(complaint([] { (void)parse_span("A+B"); }),
+            "map: expected FROM>TO, each a name or several joined by '+', found \"A+B\"");
+  EXPECT_EQ(complaint([] { (void)parse_mean("A+"); }), "map: expected names joined by '+', found \"A+\"");
+}
+
+TEST(Canonical, MarkersOfPlugInGaitGiveAPersonsJoints) {
+  REACHCAST_NEED_MOCAP("c3d_trc/cmu_02_01.c3d");
+  for (const std::string name : {"cmu_02_01.c3d", "motion_capture_walk.trc"}) {
+    const Clip clip = to_canonical(read_motion((mocap_folder() / "c3d_trc" / name).string()));
+    for (const std::size_t frame : {std::size_t{0}, clip.frames() / 2}) {
+      const auto distance = [&](Joint a, Joint b) {
+        return glm::distance(clip.at(frame, index(a)), clip.at(frame, index(b)));
+      };
+      for (const auto& [hip, knee, ankle] :
+           {std::tuple{left_hip, left_knee, left_ankle}, {right_hip, right_knee, right_ankle}}) {
+        EXPECT_GT(distance(hip, knee), 0.36) << name;
+        EXPECT_LT(distance(hip, knee), 0.47) << name;
+        EXPECT_GT(distance(knee, ankle), 0.35) << name;
+        EXPECT_LT(distance(knee, ankle), 0.46) << name;
+      }
+      EXPECT_GT(distance(left_hip, right_hip), 0.13) << name;
+      EXPECT_LT(distance(left_hip, right_hip), 0.22) << name;
+      EXPECT_LT(distance(left_knee, right_knee), distance(left_hip, right_hip) + 0.45) << name;
+    }
+  }
+}
+
+TEST(Canonical, FilledPointsMarkTheirJoints) {
+  Clip clip = standing_person();
+  clip.filled.assign(clip.positions.size(), 0);
+  clip.filled[*clip.find("Lknee")] = 1;
+  const Clip canonical = to_canonical(clip);
+  EXPECT_EQ(canonical.filled[index(left_knee)], 1);
+  EXPECT_EQ(canonical.filled[index(right_knee)], 0);
+  EXPECT_EQ(canonical.filled[index(nasion)], 1) << "derived from all";
 }
 
 TEST(Canonical, CanonicalClipsStayAsTheyAre) {
