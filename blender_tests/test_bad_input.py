@@ -232,7 +232,7 @@ class Corpora(Bad):
         path = self.file("hollow.sqlite")
         shutil.copyfile(self.corpus, path)
         with sqlite3.connect(path) as database:
-            database.execute("DELETE FROM coefficients")
+            database.execute("DELETE FROM codes")
         database.close()
         self.refused("hollow.sqlite", "damaged", "coefficients", corpus=path)
 

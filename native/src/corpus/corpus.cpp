@@ -9,6 +9,7 @@
 
 #include "opening.hpp"
 #include "rows.hpp"
+#include "sources.hpp"
 #include "sqlite.hpp"
 
 namespace reachcast {
@@ -79,6 +80,29 @@ void require_length(const MotionCode& code, std::size_t position, std::int64_t l
                               "holds codes of " + std::to_string(length));
 }
 
+void require_codes(Connection& connection, std::span<const MotionCode> codes, const fs::path& path) {
+  const Precision precision = reporting(path, [&] { return rows::format_of(connection).precision; });
+  for (std::size_t i = 0; i < codes.size(); ++i) require_code(codes[i], i, precision);
+}
+
+/// Within the caller's transaction.
+std::vector<std::int64_t> write_codes(Connection& connection, std::span<const MotionCode> codes,
+                                      std::optional<std::int64_t> source, const fs::path& path) {
+  rows::Format format = rows::format_of(connection);
+  if (format.code_length == 0 && !codes.empty()) {
+    format.code_length = codes.front().coefficients.size();
+    put_meta(connection, "code_length", std::to_string(format.code_length));
+  }
+  rows::Writer writer(connection, format, source);
+  std::vector<std::int64_t> ids;
+  ids.reserve(codes.size());
+  for (const MotionCode& code : codes) {
+    require_length(code, ids.size(), format.code_length, path);
+    ids.push_back(writer.add(code));
+  }
+  return ids;
+}
+
 Connection& require_open(const std::unique_ptr<Connection>& connection, const fs::path& path) {
   if (!connection) throw std::invalid_argument(quoted(path) + "is closed");
   return *connection;
@@ -133,26 +157,66 @@ Corpus Corpus::open_for_writing(const fs::path& path) {
 std::vector<std::int64_t> Corpus::add(std::span<const MotionCode> codes) {
   const std::scoped_lock lock(state_->mutex);
   Connection& connection = require_writable(state_->connection, state_->path);
-  const Precision precision = reporting(state_->path, [&] { return rows::format_of(connection).precision; });
-  for (std::size_t i = 0; i < codes.size(); ++i) require_code(codes[i], i, precision);
+  require_codes(connection, codes, state_->path);
   if (codes.empty()) return {};
   return reporting(state_->path, [&] {
     Transaction transaction(connection, Transaction::Kind::write);
-    rows::Format format = rows::format_of(connection);
-    if (format.code_length == 0) {
-      format.code_length = codes.front().coefficients.size();
-      put_meta(connection, "code_length", std::to_string(format.code_length));
-    }
-    rows::Writer writer(connection, format);
-    std::vector<std::int64_t> ids;
-    ids.reserve(codes.size());
-    for (const MotionCode& code : codes) {
-      require_length(code, ids.size(), format.code_length, state_->path);
-      ids.push_back(writer.add(code));
-    }
+    std::vector<std::int64_t> ids = write_codes(connection, codes, {}, state_->path);
     transaction.commit();
     state_->forget();  // data_version tells of others' changes only
     return ids;
+  });
+}
+
+std::optional<StoredSource> Corpus::add_source(const SourceFile& file, std::span<const MotionCode> codes,
+                                               std::span<const Rejection> rejections) {
+  const std::scoped_lock lock(state_->mutex);
+  Connection& connection = require_writable(state_->connection, state_->path);
+  if (const std::string complaint = sources::complaint(file); !complaint.empty())
+    throw std::invalid_argument("file." + complaint);
+  require_codes(connection, codes, state_->path);
+  return reporting(state_->path, [&]() -> std::optional<StoredSource> {
+    Transaction transaction(connection, Transaction::Kind::write);
+    if (const auto earlier = sources::find(connection, file.checksum)) {
+      if (earlier->settings == file.settings) return std::nullopt;
+      sources::remove_source(connection, earlier->id);
+    }
+    StoredSource stored{sources::insert(connection, file, rejections), file, 0,
+                        std::vector<Rejection>(rejections.begin(), rejections.end())};
+    stored.motions = write_codes(connection, codes, stored.id, state_->path).size();
+    transaction.commit();
+    state_->forget();
+    return stored;
+  });
+}
+
+std::vector<StoredSource> Corpus::sources() const {
+  const std::scoped_lock lock(state_->mutex);
+  Connection& connection = require_open(state_->connection, state_->path);
+  return reporting(state_->path, [&] {
+    const Transaction snapshot(connection, Transaction::Kind::read);
+    return sources::all(connection);
+  });
+}
+
+bool Corpus::has_source(const std::string& checksum, const std::string& settings) const {
+  const std::scoped_lock lock(state_->mutex);
+  Connection& connection = require_open(state_->connection, state_->path);
+  return reporting(state_->path, [&] {
+    const auto stored = sources::find(connection, checksum);
+    return stored && stored->settings == settings;
+  });
+}
+
+std::size_t Corpus::remove(std::span<const std::int64_t> ids) {
+  const std::scoped_lock lock(state_->mutex);
+  Connection& connection = require_writable(state_->connection, state_->path);
+  return reporting(state_->path, [&] {
+    Transaction transaction(connection, Transaction::Kind::write);
+    const std::size_t count = sources::remove(connection, ids);
+    transaction.commit();
+    state_->forget();
+    return count;
   });
 }
 

@@ -31,21 +31,38 @@ CREATE TABLE subjects (
 CREATE INDEX subjects_by_value ON subjects (stature_m, sex, age_years, mass_kg);
 CREATE TABLE sources (
   id INTEGER PRIMARY KEY,
-  origin TEXT NOT NULL UNIQUE
+  path TEXT NOT NULL,
+  checksum TEXT NOT NULL UNIQUE,
+  bytes INTEGER NOT NULL,
+  tool TEXT NOT NULL,
+  note TEXT NOT NULL,
+  settings TEXT NOT NULL
 ) STRICT;
+CREATE TABLE rejections (
+  id INTEGER PRIMARY KEY,
+  source INTEGER NOT NULL REFERENCES sources (id),
+  what TEXT NOT NULL,
+  reason TEXT NOT NULL
+) STRICT;
+CREATE TABLE clips (
+  id INTEGER PRIMARY KEY,
+  origin TEXT NOT NULL UNIQUE,
+  source INTEGER REFERENCES sources (id)
+) STRICT;
+CREATE INDEX clips_by_source ON clips (source);
 CREATE TABLE motions (
   id INTEGER PRIMARY KEY,
   subject INTEGER NOT NULL REFERENCES subjects (id),
-  source INTEGER NOT NULL REFERENCES sources (id),
+  clip INTEGER NOT NULL REFERENCES clips (id),
   phase TEXT NOT NULL,
   mirrored INTEGER NOT NULL CHECK (mirrored IN (0, 1)),
   duration_s REAL NOT NULL,
   home_x REAL NOT NULL, home_y REAL NOT NULL, home_z REAL NOT NULL,
   target_x REAL NOT NULL, target_y REAL NOT NULL, target_z REAL NOT NULL,
   grip_distance_m REAL NOT NULL,
-  UNIQUE (source, mirrored, phase)
+  UNIQUE (clip, mirrored, phase)
 ) STRICT;
-CREATE TABLE coefficients (
+CREATE TABLE codes (
   motion INTEGER PRIMARY KEY REFERENCES motions (id),
   original INTEGER REFERENCES motions (id),
   data BLOB NOT NULL
@@ -153,10 +170,9 @@ std::string select(bool with_coefficients, const std::string& condition) {
              "SELECT m.id, m.subject, s.stature_m, s.sex, s.age_years, s.mass_kg, m.phase, o.origin, m.mirrored,"
              " m.duration_s, m.home_x, m.home_y, m.home_z, m.target_x, m.target_y, m.target_z, m.grip_distance_m") +
          (with_coefficients ? ", c.data, c.original, d.data" : "") +
-         " FROM motions m LEFT JOIN subjects s ON s.id = m.subject LEFT JOIN sources o ON o.id = m.source" +
-         (with_coefficients
-              ? " LEFT JOIN coefficients c ON c.motion = m.id LEFT JOIN coefficients d ON d.motion = c.original "
-              : " ") +
+         " FROM motions m LEFT JOIN subjects s ON s.id = m.subject LEFT JOIN clips o ON o.id = m.clip" +
+         (with_coefficients ? " LEFT JOIN codes c ON c.motion = m.id LEFT JOIN codes d ON d.motion = c.original "
+                            : " ") +
          condition + " ORDER BY m.id";
 }
 
@@ -240,20 +256,21 @@ StoredMotion read_motion(const sqlite::Statement& row, const Format& format) {
   return {summary.id, std::move(code)};
 }
 
-Writer::Writer(sqlite::Connection& connection, const Format& format)
+Writer::Writer(sqlite::Connection& connection, const Format& format, std::optional<std::int64_t> source)
     : connection_(connection),
       format_(format),
+      source_(source),
       find_subject_(connection,
                     "SELECT id FROM subjects WHERE stature_m = ? AND sex IS ? AND age_years IS ? AND mass_kg IS ?"),
       insert_subject_(connection, "INSERT INTO subjects (stature_m, sex, age_years, mass_kg) VALUES (?, ?, ?, ?)"),
-      find_source_(connection, "SELECT id FROM sources WHERE origin = ?"),
-      insert_source_(connection, "INSERT INTO sources (origin) VALUES (?)"),
-      find_motion_(connection, "SELECT id FROM motions WHERE source = ? AND mirrored = ? AND phase = ?"),
+      find_clip_(connection, "SELECT id FROM clips WHERE origin = ?"),
+      insert_clip_(connection, "INSERT INTO clips (origin, source) VALUES (?, ?)"),
+      find_motion_(connection, "SELECT id FROM motions WHERE clip = ? AND mirrored = ? AND phase = ?"),
       insert_motion_(connection,
-                     "INSERT INTO motions (source, mirrored, phase, subject, duration_s, home_x, home_y, home_z,"
+                     "INSERT INTO motions (clip, mirrored, phase, subject, duration_s, home_x, home_y, home_z,"
                      " target_x, target_y, target_z, grip_distance_m) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
-      insert_coefficients_(connection, "INSERT INTO coefficients (motion, data, original) VALUES (?, ?, ?)"),
-      find_coefficients_(connection, "SELECT data FROM coefficients WHERE motion = ? AND original IS NULL") {}
+      insert_coefficients_(connection, "INSERT INTO codes (motion, data, original) VALUES (?, ?, ?)"),
+      find_coefficients_(connection, "SELECT data FROM codes WHERE motion = ? AND original IS NULL") {}
 
 namespace {
 
@@ -282,19 +299,25 @@ std::int64_t Writer::subject_id(const Subject& subject) {
   });
 }
 
-std::int64_t Writer::source_id(const std::string& origin) {
-  return find_or_insert(connection_, find_source_, insert_source_,
-                        [&](sqlite::Statement& statement) { statement.bind(1, std::string_view(origin)); });
+std::int64_t Writer::clip_id(const std::string& origin) {
+  find_clip_.bind(1, std::string_view(origin));
+  const std::int64_t id = find_clip_.step() ? find_clip_.integer(0) : 0;
+  find_clip_.reset();
+  if (id != 0) return id;
+  insert_clip_.bind(1, std::string_view(origin));
+  insert_clip_.bind(2, source_);
+  insert_clip_.run();
+  return connection_.last_id();
 }
 
 std::int64_t Writer::add(const MotionCode& code) {
-  const std::int64_t source = source_id(code.origin);
-  const std::int64_t id = find_motion(source, code.is_mirrored, code.phase);
-  return id != 0 ? id : insert(code, source);
+  const std::int64_t clip = clip_id(code.origin);
+  const std::int64_t id = find_motion(clip, code.is_mirrored, code.phase);
+  return id != 0 ? id : insert(code, clip);
 }
 
-std::int64_t Writer::find_motion(std::int64_t source, bool mirrored, Phase phase) {
-  find_motion_.bind(1, source);
+std::int64_t Writer::find_motion(std::int64_t clip, bool mirrored, Phase phase) {
+  find_motion_.bind(1, clip);
   find_motion_.bind(2, std::int64_t{mirrored});
   find_motion_.bind(3, phase_name(phase));
   const std::int64_t id = find_motion_.step() ? find_motion_.integer(0) : 0;
@@ -302,10 +325,10 @@ std::int64_t Writer::find_motion(std::int64_t source, bool mirrored, Phase phase
   return id;
 }
 
-std::int64_t Writer::original_of(const MotionCode& code, std::int64_t source) {
+std::int64_t Writer::original_of(const MotionCode& code, std::int64_t clip) {
   const bool may_have_one =
       format_.precision == Precision::compact && code.is_mirrored && code.coefficients.size() == code_length();
-  return may_have_one ? find_motion(source, false, code.phase) : 0;
+  return may_have_one ? find_motion(clip, false, code.phase) : 0;
 }
 
 std::vector<std::byte> Writer::to_blob(const MotionCode& code, std::int64_t original) {
@@ -320,8 +343,8 @@ std::vector<std::byte> Writer::to_blob(const MotionCode& code, std::int64_t orig
   return compact::pack(coefficients, base);
 }
 
-std::int64_t Writer::insert(const MotionCode& code, std::int64_t source) {
-  insert_motion_.bind(1, source);
+std::int64_t Writer::insert(const MotionCode& code, std::int64_t clip) {
+  insert_motion_.bind(1, clip);
   insert_motion_.bind(2, std::int64_t{code.is_mirrored});
   insert_motion_.bind(3, phase_name(code.phase));
   insert_motion_.bind(4, subject_id(code.subject));
@@ -333,15 +356,11 @@ std::int64_t Writer::insert(const MotionCode& code, std::int64_t source) {
   insert_motion_.bind(12, code.grip_distance_m);
   insert_motion_.run();
   const std::int64_t id = connection_.last_id();
-  const std::int64_t original = original_of(code, source);
+  const std::int64_t original = original_of(code, clip);
   const std::vector<std::byte> data = to_blob(code, original);
   insert_coefficients_.bind(1, id);
   insert_coefficients_.bind(2, std::span<const std::byte>(data));
-  if (original != 0) {
-    insert_coefficients_.bind(3, original);
-  } else {
-    insert_coefficients_.bind(3, std::optional<double>());
-  }
+  insert_coefficients_.bind(3, original == 0 ? std::nullopt : std::optional(original));
   insert_coefficients_.run();
   return id;
 }

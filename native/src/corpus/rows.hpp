@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,22 +38,24 @@ struct Format {
 /// Appends codes within a transaction that the caller began.
 class Writer {
  public:
-  Writer(sqlite::Connection& connection, const Format& format);
+  /// source: what clips that are new come from.
+  Writer(sqlite::Connection& connection, const Format& format, std::optional<std::int64_t> source = {});
   /// The new id, or the one that (origin, mirrored, phase) has already.
   [[nodiscard]] std::int64_t add(const MotionCode& code);
 
  private:
   [[nodiscard]] std::int64_t subject_id(const Subject& subject);
-  [[nodiscard]] std::int64_t source_id(const std::string& origin);
-  [[nodiscard]] std::int64_t insert(const MotionCode& code, std::int64_t source);
-  [[nodiscard]] std::int64_t find_motion(std::int64_t source, bool mirrored, Phase phase);
+  [[nodiscard]] std::int64_t clip_id(const std::string& origin);
+  [[nodiscard]] std::int64_t insert(const MotionCode& code, std::int64_t clip);
+  [[nodiscard]] std::int64_t find_motion(std::int64_t clip, bool mirrored, Phase phase);
   /// The motion of which this one is the mirror image; 0 for another motion and where that one is not stored.
-  [[nodiscard]] std::int64_t original_of(const MotionCode& code, std::int64_t source);
+  [[nodiscard]] std::int64_t original_of(const MotionCode& code, std::int64_t clip);
   [[nodiscard]] std::vector<std::byte> to_blob(const MotionCode& code, std::int64_t original);
 
   sqlite::Connection& connection_;
   Format format_;
-  sqlite::Statement find_subject_, insert_subject_, find_source_, insert_source_, find_motion_, insert_motion_,
+  std::optional<std::int64_t> source_;
+  sqlite::Statement find_subject_, insert_subject_, find_clip_, insert_clip_, find_motion_, insert_motion_,
       insert_coefficients_, find_coefficients_;
 };
 

@@ -47,6 +47,11 @@ void Statement::bind(int parameter, std::optional<double> value) {
   connection_.check(sqlite3_bind_null(handle_, parameter));
 }
 
+void Statement::bind(int parameter, std::optional<std::int64_t> value) {
+  if (value) return bind(parameter, *value);
+  connection_.check(sqlite3_bind_null(handle_, parameter));
+}
+
 void Statement::bind(int parameter, std::string_view value) {
   // A null pointer would bind NULL, and an empty view may hold one.
   const char* const text = value.empty() ? "" : value.data();

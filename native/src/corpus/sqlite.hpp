@@ -51,6 +51,7 @@ class Statement {
   void bind(int parameter, std::int64_t value);
   void bind(int parameter, double value);
   void bind(int parameter, std::optional<double> value);
+  void bind(int parameter, std::optional<std::int64_t> value);
   void bind(int parameter, std::string_view value);  ///< copied
   void bind(int parameter, std::optional<std::string_view> value);
   void bind(int parameter, std::span<const std::byte> value);  ///< must outlive the next `step`

@@ -105,12 +105,12 @@ TEST(CompactCorpus, SaysThatItIsDamaged) {
   std::mt19937_64 random(6);
   const MotionCode code = code_of(random, 1, false), image = image_of(code);
   for (const char* spoil :
-       {"UPDATE coefficients SET data = x'80'", "UPDATE coefficients SET data = x'0002' WHERE original IS NULL",
-        "UPDATE coefficients SET data = x'00ffffffffffffffffff7f'",
-        "UPDATE coefficients SET data = CAST(data || x'01' AS BLOB)",
-        "UPDATE coefficients SET data = CAST(x'ffffffffffffffffff7f' || zeroblob(983) AS BLOB)",
-        "UPDATE coefficients SET data = x'' WHERE original IS NULL",
-        "UPDATE coefficients SET original = NULL WHERE original IS NOT NULL; UPDATE coefficients SET data = x'0101'"}) {
+       {"UPDATE codes SET data = x'80'", "UPDATE codes SET data = x'0002' WHERE original IS NULL",
+        "UPDATE codes SET data = x'00ffffffffffffffffff7f'",
+        "UPDATE codes SET data = CAST(data || x'01' AS BLOB)",
+        "UPDATE codes SET data = CAST(x'ffffffffffffffffff7f' || zeroblob(983) AS BLOB)",
+        "UPDATE codes SET data = x'' WHERE original IS NULL",
+        "UPDATE codes SET original = NULL WHERE original IS NOT NULL; UPDATE codes SET data = x'0101'"}) {
     std::filesystem::remove(folder / "a");
     {
       Corpus corpus = Corpus::create(folder / "a", "test", Precision::compact);

@@ -120,10 +120,10 @@ TEST(CorpusErrors, SaysWhichMotionIsDamaged) {
     expect_contains(message, "corpus '" + (folder / "a").string() + "' is damaged: motion 2 ");
     return message;
   };
-  expect_contains(damaged_by("UPDATE coefficients SET data = x'0011223344556677' WHERE motion = 2"),
+  expect_contains(damaged_by("UPDATE codes SET data = x'0011223344556677' WHERE motion = 2"),
                   "has 8 bytes of coefficients, expected 40");
-  expect_contains(damaged_by("DELETE FROM coefficients WHERE motion = 2"), "has 0 bytes");
-  expect_contains(damaged_by("UPDATE coefficients SET data = x'000000000000F07F000000000000F07F000000000000F07F"
+  expect_contains(damaged_by("DELETE FROM codes WHERE motion = 2"), "has 0 bytes");
+  expect_contains(damaged_by("UPDATE codes SET data = x'000000000000F07F000000000000F07F000000000000F07F"
                              "000000000000F07F000000000000F07F' WHERE motion = 2"),
                   "not finite");
   expect_contains(damaged_by("UPDATE motions SET target_y = 9e999 WHERE id = 2"), "infinite target");
@@ -292,7 +292,7 @@ TEST(CorpusErrors, RepairsWhatACrashedWriterLeft) {
     if (sqlite3_open((folder / "a").c_str(), &handle) != SQLITE_OK) return 1;
     return sqlite3_exec(handle,
                         "PRAGMA cache_size = 1; BEGIN; UPDATE motions SET duration_s = 77; "
-                        "UPDATE coefficients SET data = zeroblob(8)",
+                        "UPDATE codes SET data = zeroblob(8)",
                         nullptr, nullptr, nullptr) == SQLITE_OK
                ? 0
                : 2;

@@ -33,7 +33,7 @@ TEST(Corpus, StoresCoefficientsAsLittleEndianDoubles) {
   sqlite3* handle = nullptr;
   ASSERT_EQ(sqlite3_open((folder / "a").c_str(), &handle), SQLITE_OK);
   sqlite3_stmt* statement = nullptr;
-  sqlite3_prepare_v2(handle, "SELECT hex(data) FROM coefficients", -1, &statement, nullptr);
+  sqlite3_prepare_v2(handle, "SELECT hex(data) FROM codes", -1, &statement, nullptr);
   ASSERT_EQ(sqlite3_step(statement), SQLITE_ROW);
   EXPECT_STREQ(reinterpret_cast<const char*>(sqlite3_column_text(statement, 0)), "000000000000F03F00000000000000C0");
   sqlite3_finalize(statement);

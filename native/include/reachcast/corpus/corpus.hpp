@@ -15,12 +15,14 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "reachcast/corpus/motion_table.hpp"
+#include "reachcast/corpus/source.hpp"
 #include "reachcast/motion/motion_code.hpp"
 
 namespace reachcast {
@@ -64,6 +66,18 @@ class Corpus {
   /// Every code needs a non-empty origin, finite values within the ranges of MotionCode and Subject, a
   /// duration > 0, and as many coefficients as the codes already stored.
   std::vector<std::int64_t> add(std::span<const MotionCode> codes);
+
+  /// What an imported file gave, in one transaction: the file, its motions and what in it was left out. A file whose
+  /// checksum and settings are stored already changes nothing and yields nothing; one stored with other settings is
+  /// replaced. Motions whose (origin, mirrored, phase) another file brought stay that file's.
+  std::optional<StoredSource> add_source(const SourceFile& file, std::span<const MotionCode> codes,
+                                         std::span<const Rejection> rejections);
+  [[nodiscard]] std::vector<StoredSource> sources() const;  ///< all, in id order
+  /// Whether `add_source` would change nothing.
+  [[nodiscard]] bool has_source(const std::string& checksum, const std::string& settings) const;
+  /// Takes motions away, and with the last of a file the file, so that it can be imported again. In a compact corpus
+  /// mirror images go with their motion. Unknown ids are no error. Returns how many motions there were.
+  std::size_t remove(std::span<const std::int64_t> ids);
 
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] std::vector<StoredMotion> motions() const;  ///< all, in id order
