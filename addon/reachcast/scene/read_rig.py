@@ -9,8 +9,10 @@ import numpy as np
 
 from ..rigs.bone_map import BoneMap
 from ..rigs.rig_presets import detect, load_preset
+from ..rigs.rigify_controls import as_body
 from ..rigs.rotations import orthonormal
 from ..rigs.skeleton import Bones, Skeleton, build_skeleton
+from .control_rig import refuse_unusable
 from .transforms import Placement, described, even_placement
 
 
@@ -31,7 +33,11 @@ def read_rig(rig: bpy.types.Object, bone_map: BoneMap | str | Path | None = None
         bone_map = detect(names, rig.name)
     elif not isinstance(bone_map, BoneMap):
         bone_map = load_preset(bpy.path.abspath(str(bone_map))).on(names)
-    skeleton = build_skeleton(rig.name, _bones(rig, even_placement(rig, layer)), bone_map)
+    bones = _bones(rig, even_placement(rig, layer))
+    if bone_map.controls:
+        refuse_unusable(rig)
+        return build_skeleton(rig.name, as_body(bones, bone_map), bone_map)
+    skeleton = build_skeleton(rig.name, bones, bone_map)
     _refuse_what_overrides_keys(rig, skeleton)
     return skeleton
 

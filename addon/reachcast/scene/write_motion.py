@@ -13,6 +13,7 @@ from .. import native
 from ..rigs.rotations import Array, from_quaternion
 from ..rigs.skeleton import Skeleton
 from .action_writer import Channel, write_action
+from .control_rig import control_channels, is_control_rig
 
 _NOWHERE, _UNSCALED = Vector((0.0, 0.0, 0.0)), Vector((1.0, 1.0, 1.0))
 _ROTATION_PATHS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
@@ -29,6 +30,8 @@ def rig_channels(rig: bpy.types.Object, skeleton: Skeleton, pose: Any) -> list[C
 
     A keyed bone that is posed with a scale or an offset of its own also gets one key that takes it to none.
     """
+    if is_control_rig(skeleton):
+        return control_channels(rig, skeleton, pose)
     pelvis = skeleton.segments["pelvis"]
     channels = []
     for bone in skeleton.keyed:
