@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import random
 import unittest
 
 import bpy
@@ -15,6 +16,7 @@ from reachcast.rigs.rig_presets import detect, parse_preset, preset_text
 from reachcast.scene.measure import foot_slip, measure_lift, sample
 from reachcast.scene.read_rig import read_rig
 from reachcast.scene.read_task import read_box
+from rig_cases import RIGS, edit_bones
 
 PROMISED_M = 1e-3
 STRETCH = 1e-4
@@ -66,6 +68,37 @@ class Detection(unittest.TestCase):
                 parse_preset(text, "mine.json")
             for word in words:
                 self.assertIn(word, str(caught.exception))
+
+
+class Shape(unittest.TestCase):
+    """Every bone renamed: the skeleton's shape gives the map that the names gave."""
+
+    def test_the_map_is_the_preset_s(self) -> None:
+        for number, name in enumerate([*PUBLISHED, *RIGS]):
+            with self.subTest(rig=name):
+                rig = build(name, number) if name in PUBLISHED else RIGS[name]()
+                bpy.context.view_layer.update()
+                bones = dict(read_rig(rig).bone_map.segments)
+                if name == "daz":  # two bones lie before the toes; which of them is the ball the names alone tell
+                    bones.update({f"toe.{side}": f"{side.lower()}Metatarsals" for side in "LR"})
+                draw = random.Random(number)
+                names = {bone.name: f"{draw.getrandbits(48):012x}" for bone in rig.data.bones}
+                for bone in list(rig.data.bones):
+                    bone.name = names[bone.name]
+                found = read_rig(rig)
+                self.assertIn("shape", found.bone_map.name)
+                self.assertEqual(found.bone_map.segments, {part: names[bone] for part, bone in bones.items()})
+
+    def test_what_is_no_person_is_refused_in_a_sentence(self) -> None:
+        for lost, words in (("thigh.R", "two legs"), ("shoulder.L", "two arms")):
+            with self.subTest(lost=lost):
+                rig = RIGS["mannequin"]()
+                edit_bones(rig, lambda bones: [bones.remove(bone) for bone in
+                                               [*bones[lost].children_recursive, bones[lost]]])
+                for number, bone in enumerate(list(rig.data.bones)):
+                    bone.name = f"b{number}"
+                with self.assertRaisesRegex(ValueError, words):
+                    read_rig(rig)
 
 
 class Lifts(unittest.TestCase):

@@ -139,6 +139,13 @@ def presets() -> list[RigPreset]:
     return list(_presets.values())
 
 
+def known_part(bones: Collection[str]) -> float:
+    """The largest part of a preset's segments whose bones are there by name, 0 to 1."""
+    names = frozenset(bones)
+    maps = [preset.on(names).segments for preset in presets()]
+    return max(sum(bone in names for bone in found.values()) / len(found) for found in maps)
+
+
 def detect(bones: Collection[str], rig: str, own: Iterable[RigPreset] = ()) -> BoneMap:
     """The map that fits these bones, the user's own presets first; ValueError lists what the closest one lacks."""
     names = frozenset(bones)

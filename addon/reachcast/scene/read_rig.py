@@ -8,7 +8,8 @@ import bpy
 import numpy as np
 
 from ..rigs.bone_map import BoneMap
-from ..rigs.rig_presets import detect, load_preset
+from ..rigs.rig_presets import detect, known_part, load_preset
+from ..rigs.rig_shape import shape_map
 from ..rigs.rigify_controls import as_body
 from ..rigs.rotations import orthonormal
 from ..rigs.skeleton import Bones, Skeleton, build_skeleton
@@ -30,7 +31,7 @@ def read_rig(rig: bpy.types.Object, bone_map: BoneMap | str | Path | None = None
         raise ValueError(f"Rig '{rig.name}' is shown in its rest position; set its Skeleton to Pose Position")
     names = [bone.name for bone in rig.data.bones]
     if bone_map is None:
-        bone_map = detect(names, rig.name)
+        bone_map = recognise(rig)
     elif not isinstance(bone_map, BoneMap):
         bone_map = load_preset(bpy.path.abspath(str(bone_map))).on(names)
     bones = _bones(rig, even_placement(rig, layer))
@@ -40,6 +41,24 @@ def read_rig(rig: bpy.types.Object, bone_map: BoneMap | str | Path | None = None
     skeleton = build_skeleton(rig.name, bones, bone_map)
     _refuse_what_overrides_keys(rig, skeleton)
     return skeleton
+
+
+def recognise(rig: bpy.types.Object) -> BoneMap:
+    """The map by the bones' names; by the skeleton's shape when no known rig has even half of these names.
+
+    Cheap enough for every redraw. ValueError says what is missing.
+    """
+    names = [bone.name for bone in rig.data.bones]
+    try:
+        return detect(names, rig.name)
+    except ValueError:
+        if known_part(names) >= 0.5:
+            raise  # a known rig that lacks a bone
+    matrix = np.array(rig.matrix_world, dtype=float)
+    scale = np.linalg.norm(matrix[:3, :3], axis=0)
+    if not np.all(np.isfinite(matrix)) or np.any(scale < 1e-9):
+        raise ValueError(f"Rig '{rig.name}' has a transform by which no bone can be placed")
+    return shape_map(_bones(rig, Placement(matrix[:3, 3], matrix[:3, :3] / scale, scale)), rig.name)
 
 
 def _bones(rig: bpy.types.Object, place: Placement) -> Bones:
