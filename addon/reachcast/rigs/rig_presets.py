@@ -146,9 +146,14 @@ def known_part(bones: Collection[str]) -> float:
     return max(sum(bone in names for bone in found.values()) / len(found) for found in maps)
 
 
+def closest(bones: Collection[str], own: Iterable[RigPreset] = ()) -> BoneMap:
+    """The map that lacks least of these bones, which need not fit."""
+    names = frozenset(bones)
+    maps = [preset.on(names) for preset in (*own, *presets())]
+    return min(maps, key=lambda found: (len(found.gaps(names)), -len(names & set(found.segments.values()))))
+
+
 def detect(bones: Collection[str], rig: str, own: Iterable[RigPreset] = ()) -> BoneMap:
     """The map that fits these bones, the user's own presets first; ValueError lists what the closest one lacks."""
     names = frozenset(bones)
-    maps = [preset.on(names) for preset in (*own, *presets())]
-    closest = min(maps, key=lambda found: (len(found.gaps(names)), -len(names & set(found.segments.values()))))
-    return closest.fitted(names, rig)
+    return closest(names, own).fitted(names, rig)

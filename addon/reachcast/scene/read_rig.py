@@ -14,6 +14,7 @@ from ..rigs.rigify_controls import as_body
 from ..rigs.rotations import orthonormal
 from ..rigs.skeleton import Bones, Skeleton, build_skeleton
 from .control_rig import refuse_unusable
+from .map_editing import edited_map, user_presets
 from .transforms import Placement, described, even_placement
 
 
@@ -44,13 +45,15 @@ def read_rig(rig: bpy.types.Object, bone_map: BoneMap | str | Path | None = None
 
 
 def recognise(rig: bpy.types.Object) -> BoneMap:
-    """The map by the bones' names; by the skeleton's shape when no known rig has even half of these names.
+    """The map that was edited on the rig; else by the bones' names, the user's presets first; by the skeleton's shape when no known rig has even half of these names.
 
     Cheap enough for every redraw. ValueError says what is missing.
     """
     names = [bone.name for bone in rig.data.bones]
+    if (edited := edited_map(rig)) is not None:
+        return edited.fitted(frozenset(names), rig.name)
     try:
-        return detect(names, rig.name)
+        return detect(names, rig.name, user_presets())
     except ValueError:
         if known_part(names) >= 0.5:
             raise  # a known rig that lacks a bone
