@@ -10,13 +10,13 @@ import bpy
 import corpora
 import numpy as np
 from lift_cases import BOX_SIZE, LiftScene, Place, cuboid, empty
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 from published_rigs import PUBLISHED, build
 from reachcast.rigs.rig_presets import detect, parse_preset, preset_text
 from reachcast.scene.measure import foot_slip, measure_lift, sample
 from reachcast.scene.read_rig import read_rig
 from reachcast.scene.read_task import read_box
-from rig_cases import RIGS, edit_bones
+from rig_cases import RIGS, edit_bones, move_tail, set_rest_arms, set_rolls
 
 PROMISED_M = 1e-3
 STRETCH = 1e-4
@@ -116,6 +116,29 @@ class Lifts(unittest.TestCase):
                 result = scene.predict(corpus, start_frame=1)
                 self.check_by_sight(scene, result.frames)
                 self.check_by_measure(scene, result.frames)
+
+    def test_missing_toes_hands_that_point_elsewhere_and_rest_arms(self) -> None:
+        changes = {"no toes": lambda rig: edit_bones(rig, lambda bones: [bones.remove(bones[f"toe.{s}"]) for s in "LR"]),
+                   "hands aside": lambda rig: edit_bones(rig, lambda bones: [move_tail(bones[f"hand.{s}"], Vector(
+                       (0.03 if s == "L" else -0.03, -0.06, -0.05))) for s in "LR"]),
+                   "arms down": lambda rig: set_rest_arms(rig, 3.0), "A": lambda rig: set_rest_arms(rig, 45.0),
+                   "T": lambda rig: set_rest_arms(rig, 90.0)}
+        for number, (what, change) in enumerate(changes.items()):
+            for name in RIGS:
+                with self.subTest(change=what, rig=name):
+                    bpy.ops.wm.read_factory_settings(use_empty=True)
+                    bpy.ops.preferences.addon_enable(module="reachcast")
+                    rig = RIGS[name]()
+                    if what == "no toes" and name == "metarig":
+                        edit_bones(rig, lambda bones: [bones.remove(bones[f"heel.02.{s}"]) for s in "LR"])
+                    change(rig)
+                    set_rolls(rig, np.random.default_rng(number).uniform(-3.1, 3.1, 23))
+                    rig.scale = (0.01,) * 3
+                    rig.data.transform(Matrix.Scale(100.0, 4))
+                    bpy.context.view_layer.update()
+                    scene = LiftScene(rig, empty("Shelf", Matrix()), empty("Home", Matrix()), cuboid("Box", BOX_SIZE))
+                    scene.arrange(Place(1.1, 20, 0.45, True), "waist")
+                    self.check_by_measure(scene, scene.predict(None, start_frame=1).frames)
 
     def check_by_measure(self, scene: LiftScene, events: dict[str, int]) -> None:
         skeleton = read_rig(scene.rig)

@@ -82,6 +82,6 @@ class REACHCAST_PT_bone_map(bpy.types.Panel):
 
 
 def _row(column: bpy.types.UILayout, segment: str, is_missing: bool) -> bpy.types.UILayout:
-    split = column.split(factor=0.35)
+    split = column.split(factor=0.45)
     split.label(text=segment, icon="ERROR" if is_missing else "NONE")
     return split
