@@ -28,6 +28,15 @@ def names_of(rig: bpy.types.Object) -> list[str]:
     return [bone.name for bone in rig.data.bones]
 
 
+def without_clavicles(rig: bpy.types.Object) -> None:
+    def remove(bones: bpy.types.ArmatureEditBones) -> None:
+        for side in "LR":
+            bones[f"upper_arm.{side}"].use_connect = False
+            bones[f"upper_arm.{side}"].parent = bones[f"shoulder.{side}"].parent
+            bones.remove(bones[f"shoulder.{side}"])
+    edit_bones(rig, remove)
+
+
 class Detection(unittest.TestCase):
     def test_every_rig_is_recognised(self) -> None:
         for name, published in PUBLISHED.items():
@@ -121,6 +130,7 @@ class Lifts(unittest.TestCase):
         changes = {"no toes": lambda rig: edit_bones(rig, lambda bones: [bones.remove(bones[f"toe.{s}"]) for s in "LR"]),
                    "hands aside": lambda rig: edit_bones(rig, lambda bones: [move_tail(bones[f"hand.{s}"], Vector(
                        (0.03 if s == "L" else -0.03, -0.06, -0.05))) for s in "LR"]),
+                   "no clavicles": without_clavicles,
                    "arms down": lambda rig: set_rest_arms(rig, 3.0), "A": lambda rig: set_rest_arms(rig, 45.0),
                    "T": lambda rig: set_rest_arms(rig, 90.0)}
         for number, (what, change) in enumerate(changes.items()):

@@ -12,11 +12,11 @@ PARENTS: Mapping[str, tuple[str, ...]] = MappingProxyType({
     **{f"{name}.{side}": tuple(f"{parent}.{side}" if parent not in ("chest", "spine", "pelvis") else parent
                                for parent in parents)
        for side in "LR"
-       for name, parents in (("clavicle", ("chest", "spine")), ("upper_arm", ("clavicle",)),
+       for name, parents in (("clavicle", ("chest", "spine")), ("upper_arm", ("clavicle", "chest", "spine")),
                              ("forearm", ("upper_arm",)), ("hand", ("forearm",)), ("thigh", ("pelvis",)),
                              ("shin", ("thigh",)), ("foot", ("shin",)), ("toe", ("foot",)))},
 })
-OPTIONAL = frozenset({"toe.L", "toe.R"})
+OPTIONAL = frozenset({"toe.L", "toe.R", "clavicle.L", "clavicle.R"})
 
 
 @dataclass(frozen=True)

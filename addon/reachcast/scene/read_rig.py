@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ..rigs.bone_map import BoneMap
+from ..rigs.implied_bones import with_clavicles
 from ..rigs.rig_presets import detect, known_part, load_preset
 from ..rigs.rig_shape import shape_map
 from ..rigs.rigify_controls import as_body
@@ -39,7 +40,8 @@ def read_rig(rig: bpy.types.Object, bone_map: BoneMap | str | Path | None = None
     if bone_map.controls:
         refuse_unusable(rig)
         return build_skeleton(rig.name, as_body(bones, bone_map), bone_map)
-    skeleton = build_skeleton(rig.name, bones, bone_map)
+    bone_map = bone_map.fitted(frozenset(names), rig.name)
+    skeleton = build_skeleton(rig.name, *with_clavicles(bones, bone_map))
     _refuse_what_overrides_keys(rig, skeleton)
     return skeleton
 
@@ -80,7 +82,7 @@ def _bones(rig: bpy.types.Object, place: Placement) -> Bones:
 
 
 def _refuse_what_overrides_keys(rig: bpy.types.Object, skeleton: Skeleton) -> None:
-    names = [skeleton.bones.names[bone] for bone in skeleton.keyed]
+    names = [name for bone in skeleton.keyed if (name := skeleton.bones.names[bone]) not in skeleton.bones.implied]
     held = [name for name in names if any(not constraint.mute for constraint in rig.pose.bones[name].constraints)]
     if held:
         raise ValueError(f"Rig '{rig.name}' has constraints on bones that must move freely: {', '.join(held)}; "
@@ -97,6 +99,12 @@ def _refuse_what_overrides_keys(rig: bpy.types.Object, skeleton: Skeleton) -> No
     if pelvis.use_connect and pelvis.parent is not None:
         raise ValueError(f"Rig '{rig.name}': pelvis bone '{pelvis.name}' is connected to '{pelvis.parent.name}' "
                          f"and cannot move; switch Connected off")
+    for side in "LR":
+        arm = rig.data.bones[skeleton.bones.names[skeleton.segments[f"upper_arm.{side}"]]]
+        is_free = skeleton.bones.names[skeleton.segments[f"clavicle.{side}"]] not in skeleton.bones.implied
+        if not is_free and (arm.use_connect or not arm.use_local_location):
+            raise ValueError(f"Rig '{rig.name}' has no clavicle above '{arm.name}', which must then move by itself; "
+                             f"switch its Connected off and its Local Location on")
     if skeleton_drivers := _driven(rig, set(names)):
         raise ValueError(f"Rig '{rig.name}' has drivers on bones that must move freely: {', '.join(skeleton_drivers)}; "
                          f"remove them")
