@@ -11,6 +11,7 @@ from mathutils import Matrix
 from reachcast.panels_rig import REACHCAST_PT_control_rig
 from reachcast.rigs.joints import INDEX, SIDES
 from reachcast.rigs.rigify_controls import plan
+from reachcast.scene.action_writer import curves_of
 from reachcast.scene.measure import foot_slip, measure_lift, sample
 from reachcast.scene.read_rig import read_rig
 from reachcast.scene.read_task import read_box
@@ -79,13 +80,13 @@ class ControlRig(unittest.TestCase):
         rig.reachcast_hands, rig.reachcast_feet = chosen
 
     def check_keys(self, action: bpy.types.Action, hands: str, feet: str) -> None:
-        paths = [curve.data_path for curve in action.fcurves]
-        self.assertFalse([path for path in paths if "DEF-" in path or "ORG-" in path])
+        curves = {(curve.data_path, curve.array_index): curve for curve in curves_of(action)}
+        self.assertFalse([path for path, _ in curves if "DEF-" in path or "ORG-" in path])
         for limb, kind in (("upper_arm", hands), ("thigh", feet)):
-            switch = action.fcurves.find(f'pose.bones["{limb}_parent.L"]["IK_FK"]')
+            switch = curves[f'pose.bones["{limb}_parent.L"]["IK_FK"]', 0]
             self.assertEqual(switch.evaluate(1), float(kind == "FK"))
         end = 'pose.bones["hand_ik.L"].location' if hands == "IK" else 'pose.bones["hand_fk.L"].rotation_quaternion'
-        self.assertGreater(len(action.fcurves.find(end, index=1).keyframe_points), 10)
+        self.assertGreater(len(curves[end, 1].keyframe_points), 10)
 
     def check_refusals(self, scene: object) -> None:
         rig = scene.rig

@@ -113,7 +113,8 @@ class _Shape:
         apart = np.linalg.norm(self.bones.heads[above[top]] - self.bones.heads[above[top - 1]])
         return above[top - 1] if top > 1 and apart < _STEP * self.height else above[top]
 
-    def limb(self, chain: list[int], parts: tuple[float, float], what: str, extra: Callable[[list[int]], float]) -> list[int]:
+    def limb(self, chain: list[int], parts: tuple[float, float], what: str,
+             extra: Callable[[list[int]], float]) -> list[int]:
         """The three bones at whose heads the joints of the limb are; `extra`: what else speaks against them."""
         def off(triple: tuple[int, ...]) -> float:
             places = self.bones.heads[list(triple)]

@@ -47,7 +47,8 @@ def read_rig(rig: bpy.types.Object, bone_map: BoneMap | str | Path | None = None
 
 
 def recognise(rig: bpy.types.Object) -> BoneMap:
-    """The map that was edited on the rig; else by the bones' names, the user's presets first; by the skeleton's shape when no known rig has even half of these names.
+    """The map that was edited on the rig; else by the bones' names, the user's presets first; by the skeleton's shape
+    when no known rig has even half of these names.
 
     Cheap enough for every redraw. ValueError says what is missing.
     """
@@ -83,7 +84,8 @@ def _bones(rig: bpy.types.Object, place: Placement) -> Bones:
 
 def _refuse_what_overrides_keys(rig: bpy.types.Object, skeleton: Skeleton) -> None:
     names = [name for bone in skeleton.keyed if (name := skeleton.bones.names[bone]) not in skeleton.bones.implied]
-    held = [name for name in names if any(not constraint.mute for constraint in rig.pose.bones[name].constraints)]
+    held = [f"'{constraint.name}' on {name}" for name in names for constraint in rig.pose.bones[name].constraints
+            if not constraint.mute and constraint.influence > 0.0]
     if held:
         raise ValueError(f"Rig '{rig.name}' has constraints on bones that must move freely: {', '.join(held)}; "
                          f"mute or remove them")
