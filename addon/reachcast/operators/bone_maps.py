@@ -6,7 +6,8 @@ import os
 
 import bpy
 
-from ..scene.map_editing import (export_map, forget_map, import_map, lacking, save_preset, start_editing)
+from ..scene.map_editing import (export_map, forget_map, import_map, lacking, preset_folder, save_preset,
+                                  start_editing)
 from ..scene.read_rig import recognise
 
 
@@ -44,9 +45,13 @@ class _WithFile(_OnRig):
     filepath: bpy.props.StringProperty(subtype="FILE_PATH")
     filter_glob: bpy.props.StringProperty(default="*.json", options={"HIDDEN"})
 
+    def folder(self) -> str:
+        """Where the file browser opens."""
+        return os.path.dirname(bpy.data.filepath)
+
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         if not self.filepath:
-            self.filepath = os.path.join(os.path.dirname(bpy.data.filepath), "bone_map.json")
+            self.filepath = os.path.join(self.folder(), "bone_map.json")
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
@@ -90,9 +95,12 @@ class REACHCAST_OT_save_bone_map(_OnRig, bpy.types.Operator):
 
 class REACHCAST_OT_import_bone_map(_WithFile, bpy.types.Operator):
     bl_idname = "reachcast.import_bone_map"
-    bl_label = "Import"
-    bl_description = "Read a bone map from a JSON file"
+    bl_label = "Load"
+    bl_description = "Read a bone map from a JSON file: a preset that you saved, or any other"
     needs_map = False
+
+    def folder(self) -> str:
+        return os.fspath(preset_folder() or super().folder())
 
     def act(self, rig: bpy.types.Object) -> None:
         import_map(rig, bpy.path.abspath(self.filepath))
