@@ -120,7 +120,10 @@ class LiftScene:
     def arrange(self, place: Place, home: str, around: Matrix = Matrix()) -> None:
         """Puts shelf, home and box where they belong around a rig that stands at `around`; drops earlier Actions."""
         for item in (self.rig, self.box):
-            item.animation_data_clear()
+            if item.animation_data and item.animation_data.drivers:
+                item.animation_data.action = None  # the drivers are the rig's own
+            else:
+                item.animation_data_clear()
         for bone in self.rig.pose.bones:
             bone.matrix_basis = Matrix()
         ahead, up = HOMES[home]

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import os
+import random
 import unittest
 
 import bpy
 import corpora
 import numpy as np
 from lift_cases import BOX_SIZE, LiftScene, Place, cuboid, empty
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 from published_rigs import PUBLISHED, build
 from reachcast.rigs.rig_presets import detect, parse_preset, preset_text
 from reachcast.scene.measure import foot_slip, measure_lift, sample
 from reachcast.scene.read_rig import read_rig
 from reachcast.scene.read_task import read_box
+from rig_cases import RIGS, edit_bones, move_tail, set_rest_arms, set_rolls
 
 PROMISED_M = 1e-3
 STRETCH = 1e-4
@@ -24,6 +26,15 @@ FASTEST_RAD_S = 15.0
 
 def names_of(rig: bpy.types.Object) -> list[str]:
     return [bone.name for bone in rig.data.bones]
+
+
+def without_clavicles(rig: bpy.types.Object) -> None:
+    def remove(bones: bpy.types.ArmatureEditBones) -> None:
+        for side in "LR":
+            bones[f"upper_arm.{side}"].use_connect = False
+            bones[f"upper_arm.{side}"].parent = bones[f"shoulder.{side}"].parent
+            bones.remove(bones[f"shoulder.{side}"])
+    edit_bones(rig, remove)
 
 
 class Detection(unittest.TestCase):
@@ -68,6 +79,37 @@ class Detection(unittest.TestCase):
                 self.assertIn(word, str(caught.exception))
 
 
+class Shape(unittest.TestCase):
+    """Every bone renamed: the skeleton's shape gives the map that the names gave."""
+
+    def test_the_map_is_the_preset_s(self) -> None:
+        for number, name in enumerate([*PUBLISHED, *RIGS]):
+            with self.subTest(rig=name):
+                rig = build(name, number) if name in PUBLISHED else RIGS[name]()
+                bpy.context.view_layer.update()
+                bones = dict(read_rig(rig).bone_map.segments)
+                if name == "daz":  # two bones lie before the toes; which of them is the ball the names alone tell
+                    bones.update({f"toe.{side}": f"{side.lower()}Metatarsals" for side in "LR"})
+                draw = random.Random(number)
+                names = {bone.name: f"{draw.getrandbits(48):012x}" for bone in rig.data.bones}
+                for bone in list(rig.data.bones):
+                    bone.name = names[bone.name]
+                found = read_rig(rig)
+                self.assertIn("shape", found.bone_map.name)
+                self.assertEqual(found.bone_map.segments, {part: names[bone] for part, bone in bones.items()})
+
+    def test_what_is_no_person_is_refused_in_a_sentence(self) -> None:
+        for lost, words in (("thigh.R", "two legs"), ("shoulder.L", "two arms")):
+            with self.subTest(lost=lost):
+                rig = RIGS["mannequin"]()
+                edit_bones(rig, lambda bones: [bones.remove(bone) for bone in
+                                               [*bones[lost].children_recursive, bones[lost]]])
+                for number, bone in enumerate(list(rig.data.bones)):
+                    bone.name = f"b{number}"
+                with self.assertRaisesRegex(ValueError, words):
+                    read_rig(rig)
+
+
 class Lifts(unittest.TestCase):
     """Any bone rolls, objects scaled by a hundredth and lying on their backs: the hands are where they must be."""
 
@@ -83,6 +125,30 @@ class Lifts(unittest.TestCase):
                 result = scene.predict(corpus, start_frame=1)
                 self.check_by_sight(scene, result.frames)
                 self.check_by_measure(scene, result.frames)
+
+    def test_missing_toes_hands_that_point_elsewhere_and_rest_arms(self) -> None:
+        changes = {"no toes": lambda rig: edit_bones(rig, lambda bones: [bones.remove(bones[f"toe.{s}"]) for s in "LR"]),
+                   "hands aside": lambda rig: edit_bones(rig, lambda bones: [move_tail(bones[f"hand.{s}"], Vector(
+                       (0.03 if s == "L" else -0.03, -0.06, -0.05))) for s in "LR"]),
+                   "no clavicles": without_clavicles,
+                   "arms down": lambda rig: set_rest_arms(rig, 3.0), "A": lambda rig: set_rest_arms(rig, 45.0),
+                   "T": lambda rig: set_rest_arms(rig, 90.0)}
+        for number, (what, change) in enumerate(changes.items()):
+            for name in RIGS:
+                with self.subTest(change=what, rig=name):
+                    bpy.ops.wm.read_factory_settings(use_empty=True)
+                    bpy.ops.preferences.addon_enable(module="reachcast")
+                    rig = RIGS[name]()
+                    if what == "no toes" and name == "metarig":
+                        edit_bones(rig, lambda bones: [bones.remove(bones[f"heel.02.{s}"]) for s in "LR"])
+                    change(rig)
+                    set_rolls(rig, np.random.default_rng(number).uniform(-3.1, 3.1, 23))
+                    rig.scale = (0.01,) * 3
+                    rig.data.transform(Matrix.Scale(100.0, 4))
+                    bpy.context.view_layer.update()
+                    scene = LiftScene(rig, empty("Shelf", Matrix()), empty("Home", Matrix()), cuboid("Box", BOX_SIZE))
+                    scene.arrange(Place(1.1, 20, 0.45, True), "waist")
+                    self.check_by_measure(scene, scene.predict(None, start_frame=1).frames)
 
     def check_by_measure(self, scene: LiftScene, events: dict[str, int]) -> None:
         skeleton = read_rig(scene.rig)

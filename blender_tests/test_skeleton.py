@@ -71,7 +71,10 @@ class Refusals(unittest.TestCase):
     def test_constraints_and_inheritance_name_their_bones(self) -> None:
         rig = mannequin()
         rig.pose.bones["forearm.L"].constraints.new("COPY_ROTATION")
-        self.refused(rig, "forearm.L", "constraints")
+        self.refused(rig, "'Copy Rotation' on forearm.L", "constraints", "mute or remove")
+        rig.pose.bones["forearm.L"].constraints[0].influence = 0.0
+        read_rig(rig)
+        rig.pose.bones["forearm.L"].constraints[0].influence = 1.0
         rig.pose.bones["forearm.L"].constraints[0].mute = True
         read_rig(rig)
         rig.data.bones["thigh.R"].use_inherit_rotation = False

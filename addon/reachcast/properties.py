@@ -9,10 +9,15 @@ import bpy
 
 from . import native
 from .corpora import default_corpus
-from .rigs.rig_presets import detect
+from .scene.control_rig import CHOICES
+from .scene.read_rig import recognise
 
 #: The sentence of the last prediction that failed. On the WindowManager: neither saved nor undone.
 PROBLEM = bpy.props.StringProperty(name="Problem", options={"HIDDEN", "SKIP_SAVE"})
+
+#: On an armature with controls of its own, a generated Rigify rig.
+HANDS = bpy.props.EnumProperty(name="Hands", items=CHOICES, description="How a motion is written on this rig's arms")
+FEET = bpy.props.EnumProperty(name="Feet", items=CHOICES, description="How a motion is written on this rig's legs")
 
 
 def _is_armature(_settings: bpy.types.PropertyGroup, item: bpy.types.Object) -> bool:
@@ -142,7 +147,7 @@ def _rig_reason(settings: ReachcastSettings) -> str | None:
         path = bpy.path.abspath(settings.bone_map)
         return None if os.path.isfile(path) else f"The bone map {path} does not exist."
     try:
-        detect([bone.name for bone in rig.data.bones], rig.name)
+        recognise(rig)
     except ValueError as error:
         return f"{error}."
     return None

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import bpy
 
-from . import corpora, panels, path_editing, properties
-from .operators import add_mannequin, edit_hand_path, predict_family, predict_motion, predict_targets, predict_variants
+from . import corpora, panels, panels_rig, path_editing, properties
+from .operators import (add_mannequin, bone_maps, edit_hand_path, predict_family, predict_motion, predict_targets,
+                        predict_variants)
+from .scene import map_editing
 
 CLASSES: tuple[type, ...] = (
+    map_editing.SegmentBone,
     properties.ReachcastSettings,
+    *bone_maps.CLASSES,
     predict_motion.REACHCAST_OT_predict_motion,
     predict_variants.REACHCAST_OT_predict_variants,
     predict_targets.REACHCAST_OT_predict_targets,
@@ -20,6 +24,8 @@ CLASSES: tuple[type, ...] = (
     add_mannequin.REACHCAST_OT_add_mannequin,
     panels.REACHCAST_PT_lift,
     panels.REACHCAST_PT_subject,
+    panels_rig.REACHCAST_PT_control_rig,
+    panels_rig.REACHCAST_PT_bone_map,
     panels.REACHCAST_PT_output,
     panels.REACHCAST_PT_hand_path,
     panels.REACHCAST_PT_variants,
@@ -33,12 +39,17 @@ def register() -> None:
         bpy.utils.register_class(cls)
     bpy.types.Scene.reachcast = bpy.props.PointerProperty(type=properties.ReachcastSettings)
     bpy.types.WindowManager.reachcast_problem = properties.PROBLEM
+    bpy.types.Object.reachcast_hands, bpy.types.Object.reachcast_feet = properties.HANDS, properties.FEET
+    bpy.types.Object.reachcast_bones = bpy.props.CollectionProperty(type=map_editing.SegmentBone)
+    bpy.types.Object.reachcast_map = bpy.props.StringProperty(name="Bone Map", options={"HIDDEN"})
     bpy.types.VIEW3D_MT_armature_add.append(add_mannequin.draw_menu_entry)
 
 
 def unregister() -> None:
     path_editing.forget()
     bpy.types.VIEW3D_MT_armature_add.remove(add_mannequin.draw_menu_entry)
+    del bpy.types.Object.reachcast_map, bpy.types.Object.reachcast_bones
+    del bpy.types.Object.reachcast_hands, bpy.types.Object.reachcast_feet
     del bpy.types.WindowManager.reachcast_problem
     del bpy.types.Scene.reachcast
     for cls in reversed(CLASSES):

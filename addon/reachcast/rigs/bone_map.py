@@ -12,11 +12,11 @@ PARENTS: Mapping[str, tuple[str, ...]] = MappingProxyType({
     **{f"{name}.{side}": tuple(f"{parent}.{side}" if parent not in ("chest", "spine", "pelvis") else parent
                                for parent in parents)
        for side in "LR"
-       for name, parents in (("clavicle", ("chest", "spine")), ("upper_arm", ("clavicle",)),
+       for name, parents in (("clavicle", ("chest", "spine")), ("upper_arm", ("clavicle", "chest", "spine")),
                              ("forearm", ("upper_arm",)), ("hand", ("forearm",)), ("thigh", ("pelvis",)),
                              ("shin", ("thigh",)), ("foot", ("shin",)), ("toe", ("foot",)))},
 })
-OPTIONAL = frozenset({"toe.L", "toe.R"})
+OPTIONAL = frozenset({"toe.L", "toe.R", "clavicle.L", "clavicle.R"})
 
 
 @dataclass(frozen=True)
@@ -34,6 +34,7 @@ class BoneMap:
     name: str
     segments: Mapping[str, str]
     grips: Mapping[str, GripPlace] = field(default_factory=dict)
+    controls: str = ""   #: "rigify" when the bones follow the controls of a generated Rigify rig, which get the keys
 
     def grip(self, side: str) -> GripPlace:
         return self.grips.get(side, GripPlace(self.segments[f"hand.{side}"]))
@@ -61,4 +62,4 @@ class BoneMap:
             other = owners.setdefault(bone, segment)
             if other != segment and {other, segment} != {"spine", "chest"}:
                 raise ValueError(f"Bone map '{self.name}' uses bone '{bone}' for both {other} and {segment}")
-        return BoneMap(self.name, segments, self.grips)
+        return BoneMap(self.name, segments, self.grips, self.controls)

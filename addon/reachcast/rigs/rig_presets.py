@@ -4,7 +4,8 @@
     {"name": "My rig",
      "segments": {"pelvis": "Hips", "spine": ["LowerBack", "Spine"], ..., "hand.L": "LeftHand"},
      "prefix": "mixamorig[0-9]*:",                              (optional)
-     "grips": {"L": {"bone": "LeftPalm", "along": 0.5}}}        (optional; 0 = the bone's head, 1 = its tail)
+     "grips": {"L": {"bone": "LeftPalm", "along": 0.5}},        (optional; 0 = the bone's head, 1 = its tail)
+     "controls": "rigify"}                                      (optional; keys go to the controls of such a rig)
 
 A segment has one name or several to choose from, of which the first that the rig has is taken. `prefix` is a regular
 expression for what may stand before every name, such as a namespace; upper and lower case are alike.
@@ -19,6 +20,7 @@ from pathlib import Path
 
 from .bone_map import PARENTS, BoneMap, GripPlace
 
+CONTROLS = ("", "rigify")
 PRESETS_FOLDER = Path(__file__).parent / "presets"
 
 
@@ -30,6 +32,7 @@ class RigPreset:
     choices: Mapping[str, tuple[str, ...]]
     prefix: str = ""
     grips: Mapping[str, GripPlace] = field(default_factory=dict)
+    controls: str = ""
 
     def on(self, bones: Collection[str]) -> BoneMap:
         """The map with the names that these bones have; a segment whose bone is not there keeps its first choice."""
@@ -51,7 +54,8 @@ class RigPreset:
             return next((bone for bone in here if bone is not None), start + names[0])
 
         grips = {side: GripPlace(bone_of((grip.bone,)), grip.along) for side, grip in self.grips.items()}
-        return BoneMap(self.name, {segment: bone_of(names) for segment, names in self.choices.items()}, grips)
+        return BoneMap(self.name, {segment: bone_of(names) for segment, names in self.choices.items()}, grips,
+                       self.controls)
 
 
 def parse_preset(text: str, source: str) -> RigPreset:
@@ -68,7 +72,7 @@ def parse_preset(text: str, source: str) -> RigPreset:
                          f"known are {', '.join(PARENTS)}")
     choices = {segment: _parse_names(names, segment, source) for segment, names in segments.items()}
     return RigPreset(str(data.get("name", source)), choices, _parse_prefix(data.get("prefix", ""), source),
-                     _parse_grips(data.get("grips", {}), source))
+                     _parse_grips(data.get("grips", {}), source), _parse_controls(data.get("controls", ""), source))
 
 
 def _parse_names(names: object, segment: str, source: str) -> tuple[str, ...]:
@@ -101,6 +105,12 @@ def _parse_grips(data: object, source: str) -> dict[str, GripPlace]:
     return grips
 
 
+def _parse_controls(controls: object, source: str) -> str:
+    if controls not in CONTROLS:
+        raise ValueError(f"Bone map '{source}': controls is {controls!r}; it must be 'rigify' or be left out")
+    return str(controls)
+
+
 def load_preset(path: str | Path) -> RigPreset:
     path = Path(path)
     try:
@@ -112,6 +122,8 @@ def load_preset(path: str | Path) -> RigPreset:
 def preset_text(bone_map: BoneMap) -> str:
     """A map as the JSON that `parse_preset` reads."""
     data: dict[str, object] = {"name": bone_map.name, "segments": dict(bone_map.segments)}
+    if bone_map.controls:
+        data["controls"] = bone_map.controls
     if bone_map.grips:
         data["grips"] = {side: {"bone": grip.bone, "along": grip.along} for side, grip in bone_map.grips.items()}
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
@@ -127,9 +139,21 @@ def presets() -> list[RigPreset]:
     return list(_presets.values())
 
 
+def known_part(bones: Collection[str]) -> float:
+    """The largest part of a preset's segments whose bones are there by name, 0 to 1."""
+    names = frozenset(bones)
+    maps = [preset.on(names).segments for preset in presets()]
+    return max(sum(bone in names for bone in found.values()) / len(found) for found in maps)
+
+
+def closest(bones: Collection[str], own: Iterable[RigPreset] = ()) -> BoneMap:
+    """The map that lacks least of these bones, which need not fit."""
+    names = frozenset(bones)
+    maps = [preset.on(names) for preset in (*own, *presets())]
+    return min(maps, key=lambda found: (len(found.gaps(names)), -len(names & set(found.segments.values()))))
+
+
 def detect(bones: Collection[str], rig: str, own: Iterable[RigPreset] = ()) -> BoneMap:
     """The map that fits these bones, the user's own presets first; ValueError lists what the closest one lacks."""
     names = frozenset(bones)
-    maps = [preset.on(names) for preset in (*own, *presets())]
-    closest = min(maps, key=lambda found: (len(found.gaps(names)), -len(names & set(found.segments.values()))))
-    return closest.fitted(names, rig)
+    return closest(names, own).fitted(names, rig)

@@ -56,6 +56,7 @@ class Bones:
     origin: Array             #: (3,) the armature's own origin
     axes: Array               #: (3, 3): columns are the armature's own x, y, z
     scale: float = 1.0        #: world metres per unit of the armature
+    implied: frozenset[str] = frozenset()  #: names of bones that the armature lacks; see implied_bones.py
 
     @cached_property
     def _index(self) -> dict[str, int]:

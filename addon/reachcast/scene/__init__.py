@@ -4,6 +4,8 @@
 movers.py          what else than keys moves an object
 transforms.py      world transforms of objects, checked
 read_rig.py        armature object -> rigs.skeleton.Skeleton
+control_rig.py     a motion on a generated Rigify rig's controls
+map_editing.py     a bone map edited on the rig, the user's presets
 read_task.py       shelf, home and box -> home, target, object in the body frame
 action_writer.py   the one file that writes F-curves
 write_motion.py    rig pose and box places -> Actions

@@ -36,10 +36,6 @@ def write_action(owner: bpy.types.Object, name: str, channels: Sequence[Channel]
     action = bpy.data.actions.new(name)
     if owner.animation_data is None:
         owner.animation_data_create()
-    replaced = owner.animation_data.action
-    owner.animation_data.action = action
-    if replaced is not None and replaced.users == 0:
-        replaced.use_fake_user = True
     curves, group_of = _curve_makers(owner, action)
     for channel in channels:
         group = group_of(channel.group)
@@ -47,7 +43,18 @@ def write_action(owner: bpy.types.Object, name: str, channels: Sequence[Channel]
             curve = curves.new(channel.data_path, index=index)
             curve.group = group
             _fill(curve, first_frame, values)
+    _assign(owner, action)
     return action
+
+
+def _assign(owner: bpy.types.Object, action: bpy.types.Action) -> None:
+    """Once all curves are there: only then does Blender see that drivers read what they animate."""
+    replaced = owner.animation_data.action
+    owner.animation_data.action = action
+    if hasattr(action, "slots"):
+        owner.animation_data.action_slot = action.slots[0]
+    if replaced is not None and replaced.users == 0:
+        replaced.use_fake_user = True
 
 
 def rewrite_action(action: bpy.types.Action, channels: Sequence[Channel], first_frame: int) -> None:
@@ -118,7 +125,6 @@ def _curve_makers(owner: bpy.types.Object, action: bpy.types.Action):  # type: i
     bag = action
     if hasattr(action, "slots"):  # Blender 4.4 and later
         slot = action.slots.new(id_type="OBJECT", name=owner.name)
-        owner.animation_data.action_slot = slot
         strip = action.layers.new("Layer").strips.new(type="KEYFRAME")
         bag = strip.channelbag(slot, ensure=True)
 

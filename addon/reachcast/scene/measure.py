@@ -84,10 +84,24 @@ def sample(rig: bpy.types.Object, skeleton: Skeleton, frames: Sequence[int], box
             shown = _evaluated(rig, layer)
             world = shown.matrix_world
             for column, name in enumerate(names):
-                matrices[row, column] = world @ shown.pose.bones[name].matrix
+                if name not in skeleton.bones.implied:
+                    matrices[row, column] = world @ shown.pose.bones[name].matrix
             if box is not None:
                 boxes[row] = _evaluated(box, layer).matrix_world
+    _carry_implied(skeleton, matrices)
     return _samples(skeleton, tuple(frames), matrices, None if box is None else boxes)
+
+
+def _carry_implied(skeleton: Skeleton, matrices: Array) -> None:
+    """Bones that the armature lacks go along with what they hang on."""
+    bones, columns = skeleton.bones, {bone: column for column, bone in enumerate(skeleton.keyed)}
+    for bone, column in columns.items():
+        if bones.names[bone] in bones.implied:
+            above = bones.parents[bone]
+            local = bones.rotations[above].T
+            matrices[:, column] = matrices[:, columns[above]] @ np.block([
+                [local @ bones.rotations[bone], local @ (bones.heads[bone] - bones.heads[above])[:, None] / bones.scale],
+                [np.zeros((1, 3)), np.ones((1, 1))]])
 
 
 def _evaluated(item: bpy.types.Object, layer: bpy.types.ViewLayer) -> bpy.types.Object:

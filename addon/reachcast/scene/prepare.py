@@ -21,6 +21,7 @@ from ..rigs.rotations import Array
 from ..rigs.skeleton import Skeleton
 from .action_writer import refuse_unwritable
 from .movers import moves_bones, moves_object, refuse_moved
+from .control_rig import is_control_rig, plan_of
 from .read_obstacles import read_obstacles
 from .read_rig import read_rig
 from .read_task import Lift, read_lift, refuse_held_box
@@ -95,7 +96,8 @@ def solve(prepared: Prepared, **options: object) -> Solved:
 def _refuse_owners(rig: bpy.types.Object, skeleton: Skeleton, box: bpy.types.Object | None,
                    layer: bpy.types.ViewLayer) -> None:
     """ValueError when an Action on the rig or the box cannot be written or would not be all that moves it."""
-    keyed = frozenset(skeleton.bones.names[bone] for bone in skeleton.keyed)
+    keyed = frozenset(plan_of(rig).bones if is_control_rig(skeleton) else
+                      [skeleton.bones.names[bone] for bone in skeleton.keyed])
     refuse_unwritable(rig)
     refuse_moved(rig, "Rig", box, moves_bones(keyed))
     if box is not None:

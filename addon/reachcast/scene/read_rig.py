@@ -8,9 +8,14 @@ import bpy
 import numpy as np
 
 from ..rigs.bone_map import BoneMap
-from ..rigs.rig_presets import detect, load_preset
+from ..rigs.implied_bones import with_clavicles
+from ..rigs.rig_presets import detect, known_part, load_preset
+from ..rigs.rig_shape import shape_map
+from ..rigs.rigify_controls import as_body
 from ..rigs.rotations import orthonormal
 from ..rigs.skeleton import Bones, Skeleton, build_skeleton
+from .control_rig import refuse_unusable
+from .map_editing import edited_map, user_presets
 from .transforms import Placement, described, even_placement
 
 
@@ -28,12 +33,38 @@ def read_rig(rig: bpy.types.Object, bone_map: BoneMap | str | Path | None = None
         raise ValueError(f"Rig '{rig.name}' is shown in its rest position; set its Skeleton to Pose Position")
     names = [bone.name for bone in rig.data.bones]
     if bone_map is None:
-        bone_map = detect(names, rig.name)
+        bone_map = recognise(rig)
     elif not isinstance(bone_map, BoneMap):
         bone_map = load_preset(bpy.path.abspath(str(bone_map))).on(names)
-    skeleton = build_skeleton(rig.name, _bones(rig, even_placement(rig, layer)), bone_map)
+    bones = _bones(rig, even_placement(rig, layer))
+    if bone_map.controls:
+        refuse_unusable(rig)
+        return build_skeleton(rig.name, as_body(bones, bone_map), bone_map)
+    bone_map = bone_map.fitted(frozenset(names), rig.name)
+    skeleton = build_skeleton(rig.name, *with_clavicles(bones, bone_map))
     _refuse_what_overrides_keys(rig, skeleton)
     return skeleton
+
+
+def recognise(rig: bpy.types.Object) -> BoneMap:
+    """The map that was edited on the rig; else by the bones' names, the user's presets first; by the skeleton's shape
+    when no known rig has even half of these names.
+
+    Cheap enough for every redraw. ValueError says what is missing.
+    """
+    names = [bone.name for bone in rig.data.bones]
+    if (edited := edited_map(rig)) is not None:
+        return edited.fitted(frozenset(names), rig.name)
+    try:
+        return detect(names, rig.name, user_presets())
+    except ValueError:
+        if known_part(names) >= 0.5:
+            raise  # a known rig that lacks a bone
+    matrix = np.array(rig.matrix_world, dtype=float)
+    scale = np.linalg.norm(matrix[:3, :3], axis=0)
+    if not np.all(np.isfinite(matrix)) or np.any(scale < 1e-9):
+        raise ValueError(f"Rig '{rig.name}' has a transform by which no bone can be placed")
+    return shape_map(_bones(rig, Placement(matrix[:3, 3], matrix[:3, :3] / scale, scale)), rig.name)
 
 
 def _bones(rig: bpy.types.Object, place: Placement) -> Bones:
@@ -52,8 +83,9 @@ def _bones(rig: bpy.types.Object, place: Placement) -> Bones:
 
 
 def _refuse_what_overrides_keys(rig: bpy.types.Object, skeleton: Skeleton) -> None:
-    names = [skeleton.bones.names[bone] for bone in skeleton.keyed]
-    held = [name for name in names if any(not constraint.mute for constraint in rig.pose.bones[name].constraints)]
+    names = [name for bone in skeleton.keyed if (name := skeleton.bones.names[bone]) not in skeleton.bones.implied]
+    held = [f"'{constraint.name}' on {name}" for name in names for constraint in rig.pose.bones[name].constraints
+            if not constraint.mute and constraint.influence > 0.0]
     if held:
         raise ValueError(f"Rig '{rig.name}' has constraints on bones that must move freely: {', '.join(held)}; "
                          f"mute or remove them")
@@ -69,6 +101,12 @@ def _refuse_what_overrides_keys(rig: bpy.types.Object, skeleton: Skeleton) -> No
     if pelvis.use_connect and pelvis.parent is not None:
         raise ValueError(f"Rig '{rig.name}': pelvis bone '{pelvis.name}' is connected to '{pelvis.parent.name}' "
                          f"and cannot move; switch Connected off")
+    for side in "LR":
+        arm = rig.data.bones[skeleton.bones.names[skeleton.segments[f"upper_arm.{side}"]]]
+        is_free = skeleton.bones.names[skeleton.segments[f"clavicle.{side}"]] not in skeleton.bones.implied
+        if not is_free and (arm.use_connect or not arm.use_local_location):
+            raise ValueError(f"Rig '{rig.name}' has no clavicle above '{arm.name}', which must then move by itself; "
+                             f"switch its Connected off and its Local Location on")
     if skeleton_drivers := _driven(rig, set(names)):
         raise ValueError(f"Rig '{rig.name}' has drivers on bones that must move freely: {', '.join(skeleton_drivers)}; "
                          f"remove them")

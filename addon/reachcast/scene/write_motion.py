@@ -10,9 +10,10 @@ from bpy.utils import escape_identifier
 from mathutils import Vector
 
 from .. import native
-from ..rigs.rotations import Array, from_quaternion
+from ..rigs.rotations import Array, from_quaternion, turn
 from ..rigs.skeleton import Skeleton
 from .action_writer import Channel, write_action
+from .control_rig import control_channels, is_control_rig
 
 _NOWHERE, _UNSCALED = Vector((0.0, 0.0, 0.0)), Vector((1.0, 1.0, 1.0))
 _ROTATION_PATHS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
@@ -29,22 +30,43 @@ def rig_channels(rig: bpy.types.Object, skeleton: Skeleton, pose: Any) -> list[C
 
     A keyed bone that is posed with a scale or an offset of its own also gets one key that takes it to none.
     """
+    if is_control_rig(skeleton):
+        return control_channels(rig, skeleton, pose)
     pelvis = skeleton.segments["pelvis"]
     channels = []
     for bone in skeleton.keyed:
         bone_name = skeleton.bones.names[bone]
+        if bone_name in skeleton.bones.implied:
+            continue
         pose_bone = rig.pose.bones[bone_name]
         path = f'pose.bones["{escape_identifier(bone_name)}"].'
         mode = pose_bone.rotation_mode
-        if bone == pelvis:
+        above = skeleton.bones.parents[bone]
+        hangs = above >= 0 and skeleton.bones.names[above] in skeleton.bones.implied
+        values = pose.rotation_values(bone, mode)
+        if hangs:
+            places, values = _past_implied(skeleton, pose, bone, mode)
+            channels.append(Channel(path + "location", places, bone_name))
+        elif bone == pelvis:
             channels.append(Channel(path + "location", _pelvis_location(rig, skeleton, pose), bone_name))
         elif pose_bone.location != _NOWHERE and not pose_bone.bone.use_connect:
             channels.append(Channel(path + "location", np.zeros((1, 3)), bone_name))
         channels.append(Channel(path + _ROTATION_PATHS.get(mode, "rotation_euler"),
-                                pose.rotation_values(bone, mode), bone_name))
+                                values, bone_name))
         if pose_bone.scale != _UNSCALED:
             channels.append(Channel(path + "scale", np.ones((1, 3)), bone_name))
     return channels
+
+
+def _past_implied(skeleton: Skeleton, pose: Any, bone: int, mode: str) -> tuple[Array, Array]:
+    """Location (F, 3) and rotation values of a bone below an implied one, against the bone that it really hangs on."""
+    bones = skeleton.bones
+    above = bones.parents[bones.parents[bone]]
+    own, held = skeleton.keyed.index(bone), skeleton.keyed.index(above)
+    turns, heads, rest = np.asarray(pose.turns), np.asarray(pose.heads), bones.rotations[bone]
+    back = np.swapaxes(turns[held], 1, 2)
+    moved = turn(back, heads[own] - heads[held]) - (bones.heads[bone] - bones.heads[above])
+    return moved @ rest / bones.scale, native.core().rotation_values(rest.T @ back @ turns[own] @ rest, mode)
 
 
 def _pelvis_location(rig: bpy.types.Object, skeleton: Skeleton, pose: Any) -> Array:
