@@ -23,7 +23,8 @@ std::optional<Key> find(Connection& connection, const std::string& checksum) {
 }
 
 std::int64_t insert(Connection& connection, const SourceFile& file, std::span<const Rejection> rejections) {
-  Statement source(connection, "INSERT INTO sources (path, checksum, bytes, tool, note, settings) VALUES (?, ?, ?, ?, ?, ?)");
+  Statement source(connection,
+                   "INSERT INTO sources (path, checksum, bytes, tool, note, settings) VALUES (?, ?, ?, ?, ?, ?)");
   source.bind(1, std::string_view(file.path));
   source.bind(2, std::string_view(file.checksum));
   source.bind(3, file.bytes);
@@ -44,16 +45,16 @@ std::int64_t insert(Connection& connection, const SourceFile& file, std::span<co
 
 std::vector<StoredSource> all(Connection& connection) {
   std::vector<StoredSource> found;
-  Statement row(
-      connection,
-      "SELECT s.id, s.path, s.checksum, s.bytes, s.tool, s.note, s.settings, (SELECT count(*) FROM motions m JOIN clips c "
-      "ON c.id = m.clip WHERE c.source = s.id) FROM sources s ORDER BY s.id");
+  Statement row(connection,
+                "SELECT s.id, s.path, s.checksum, s.bytes, s.tool, s.note, s.settings, (SELECT count(*) FROM motions m "
+                "JOIN clips c "
+                "ON c.id = m.clip WHERE c.source = s.id) FROM sources s ORDER BY s.id");
   Statement rejection(connection, "SELECT what, reason FROM rejections WHERE source = ? ORDER BY id");
   while (row.step()) {
     StoredSource source;
     source.id = row.integer(0);
-    source.file = {std::string(row.text(1)), std::string(row.text(2)), row.integer(3), std::string(row.text(4)),
-                   std::string(row.text(5)), std::string(row.text(6))};
+    source.file = {std::string(row.text(1)), std::string(row.text(2)), row.integer(3),
+                   std::string(row.text(4)), std::string(row.text(5)), std::string(row.text(6))};
     source.motions = static_cast<std::size_t>(row.integer(7));
     rejection.bind(1, source.id);
     while (rejection.step())

@@ -129,7 +129,7 @@ TEST(CorpusErrors, SaysWhichMotionIsDamaged) {
   expect_contains(damaged_by("UPDATE motions SET target_y = 9e999 WHERE id = 2"), "infinite target");
   expect_contains(damaged_by("UPDATE motions SET phase = 'dance' WHERE id = 2"), "unknown phase 'dance'");
   expect_contains(damaged_by("PRAGMA foreign_keys = OFF; UPDATE motions SET subject = 99 WHERE id = 2"), "no stature");
-  expect_contains(damaged_by("PRAGMA foreign_keys = OFF; UPDATE motions SET source = 99 WHERE id = 2"), "no origin");
+  expect_contains(damaged_by("PRAGMA foreign_keys = OFF; UPDATE motions SET clip = 99 WHERE id = 2"), "no origin");
 }
 
 TEST(CorpusErrors, RefusesCodesThatCannotBeUsed) {

@@ -14,7 +14,7 @@ struct SourceFile {
   std::string path;      ///< as it was given
   std::string checksum;  ///< of its bytes, in words that tell how it was made: "sha256:..."
   std::int64_t bytes = 0;
-  std::string tool;  ///< what read it, with version
+  std::string tool;      ///< what read it, with version
   std::string note;      ///< how it was understood, for people: unit, axes, rate; may be empty
   std::string settings;  ///< what else decided the result (who, labels, overrides), in any fixed spelling; may be empty
 };
