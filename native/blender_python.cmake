@@ -34,6 +34,7 @@ file(GLOB binding_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/bindings
 pybind11_add_module(reachcast_core MODULE NO_EXTRAS ${binding_sources})
 target_include_directories(reachcast_core PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/bindings)
 target_link_libraries(reachcast_core PRIVATE reachcast_predict reachcast_rig)
+target_precompile_headers(reachcast_core PRIVATE ${precompiled_headers} <pybind11/numpy.h> <pybind11/pybind11.h> <pybind11/stl.h>)
 target_compile_definitions(reachcast_core PRIVATE REACHCAST_VERSION="${PROJECT_VERSION}")
 set(REACHCAST_MODULE_DIR ${CMAKE_SOURCE_DIR}/addon/reachcast CACHE PATH "Where the Python module is written")
 set_target_properties(reachcast_core PROPERTIES SUFFIX ${blender_python_suffix}

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,8 @@ using reachcast::Corpus;
 using reachcast::MotionCode;
 using reachcast::MotionSummary;
 using reachcast::Reach;
+using reachcast::SourceFile;
+using reachcast::StoredSource;
 using reachcast::Subject;
 using reachcast::bindings::numbers_array;
 using reachcast::bindings::vec3_array;
@@ -36,8 +39,8 @@ py::str text(const std::string& bytes) {
   return py::reinterpret_steal<py::str>(decoded);
 }
 
-/// The reaches and, if wanted, their mirror images, encoded and stored in one transaction.
-std::vector<std::int64_t> add_reaches(Corpus& corpus, const std::vector<Reach>& reaches, bool mirror) {
+/// The codes of reaches and, if wanted, of the mirror image of each after it.
+std::vector<MotionCode> codes_of(const std::vector<Reach>& reaches, bool mirror) {
   std::vector<MotionCode> codes;
   codes.reserve(reaches.size() * (mirror ? 2 : 1));
   for (const Reach& reach : reaches) {
@@ -46,7 +49,24 @@ std::vector<std::int64_t> add_reaches(Corpus& corpus, const std::vector<Reach>& 
     codes.push_back(reachcast::encode_reach(reachcast::mirrored(reach)));
     codes.back().is_mirrored = true;
   }
-  return corpus.add(codes);
+  return codes;
+}
+
+using RejectionTexts = std::vector<std::pair<std::string, std::string>>;
+
+std::optional<StoredSource> add_source(Corpus& corpus, const std::string& path, const std::string& checksum,
+                                       std::int64_t bytes, const std::vector<Reach>& reaches,
+                                       const RejectionTexts& left_out, const std::string& note,
+                                       const std::string& settings, bool mirror) {
+  std::vector<reachcast::Rejection> rejections;
+  for (const auto& [what, reason] : left_out) rejections.push_back({what, reason});
+  const SourceFile file{path, checksum, bytes, "reachcast " REACHCAST_VERSION, note, settings};
+  return corpus.add_source(file, codes_of(reaches, mirror), rejections);
+}
+
+std::optional<StoredSource> copy_source(Corpus& corpus, const StoredSource& source,
+                                        const std::vector<MotionCode>& codes) {
+  return corpus.add_source(source.file, codes, source.rejections);
 }
 
 std::vector<MotionCode> load(const Corpus& corpus, const std::vector<std::int64_t>& ids) {
@@ -144,6 +164,60 @@ void bind_opening(py::class_<Corpus>& corpus) {
       });
 }
 
+void bind_stored_source(py::module_& m) {
+  py::class_<StoredSource>(m, "StoredSource", "A file that was imported into a corpus.")
+      .def_readonly("id", &StoredSource::id)
+      .def_property_readonly(
+          "path", [](const StoredSource& self) { return text(self.file.path); }, "As it was given.")
+      .def_property_readonly(
+          "checksum", [](const StoredSource& self) { return text(self.file.checksum); }, "Of its bytes.")
+      .def_property_readonly("bytes", [](const StoredSource& self) { return self.file.bytes; })
+      .def_property_readonly(
+          "tool", [](const StoredSource& self) { return text(self.file.tool); }, "What read it, with version.")
+      .def_property_readonly(
+          "note", [](const StoredSource& self) { return text(self.file.note); }, "How it was understood.")
+      .def_property_readonly(
+          "settings", [](const StoredSource& self) { return text(self.file.settings); },
+          "What else decided the result.")
+      .def_readonly("motions", &StoredSource::motions, "How many came from it, mirror images included.")
+      .def_property_readonly(
+          "rejections",
+          [](const StoredSource& self) {
+            py::list pairs;
+            for (const auto& left_out : self.rejections)
+              pairs.append(py::make_tuple(text(left_out.what), text(left_out.reason)));
+            return pairs;
+          },
+          "What did not become a motion: list of (what, reason).")
+      .def("__repr__", [](const StoredSource& self) {
+        return text("<StoredSource " + std::to_string(self.id) + ": '" + self.file.path + "', " +
+                    std::to_string(self.motions) + " motions, " + std::to_string(self.rejections.size()) +
+                    " rejected>");
+      });
+}
+
+void bind_sources(py::class_<Corpus>& corpus) {
+  corpus
+      .def("add_source", &add_source, "path"_a, "checksum"_a, "bytes"_a, "reaches"_a, "rejections"_a, py::kw_only(),
+           "note"_a = "", "settings"_a = "", "mirror"_a = true, ReleaseGil(),
+           "What a file gave, all of it or nothing: reaches, encoded with their mirror images, and rejections as pairs "
+           "of what and why. None where a file with this checksum and these settings is stored already; one stored "
+           "with other settings is replaced.")
+      .def("copy_source", &copy_source, "source"_a, "codes"_a, ReleaseGil(),
+           "The same with a source of another corpus and the MotionCodes that came from it.")
+      .def("sources", &Corpus::sources, ReleaseGil(), "All imported files in id order: list of StoredSource.")
+      .def("has_source", &Corpus::has_source, "checksum"_a, "settings"_a, ReleaseGil(),
+           "True where add_source would change nothing.")
+      .def("motions_of", &Corpus::motions_of, "source_id"_a, ReleaseGil(), "Ids of the motions that came from a file.")
+      .def(
+          "remove", [](Corpus& self, const std::vector<std::int64_t>& ids) { return self.remove(ids); }, "ids"_a,
+          ReleaseGil(),
+          "Takes motions away and returns how many there were. A file goes with its last motion, so that it can be "
+          "imported again; in a compact corpus mirror images go with their motion.")
+      .def("check", &Corpus::check, ReleaseGil(),
+           "Reads everything: list of what is wrong, a sentence each, at most 100; empty where nothing is.");
+}
+
 void bind_contents(py::class_<Corpus>& corpus) {
   corpus.def("__len__", &Corpus::size, ReleaseGil())
       .def(
@@ -159,8 +233,13 @@ void bind_contents(py::class_<Corpus>& corpus) {
           ReleaseGil(),
           "Stores all of them or, on an error, none; returns one id per code. What is there already "
           "(same origin, mirrored and phase) stays as it is and yields its id.")
-      .def("add_reaches", &add_reaches, "reaches"_a, py::kw_only(), "mirror"_a = true, ReleaseGil(),
-           "Encodes and stores reaches and, with mirror, their mirror images after each; returns the ids.")
+      .def(
+          "add_reaches",
+          [](Corpus& self, const std::vector<Reach>& reaches, bool mirror) {
+            return self.add(codes_of(reaches, mirror));
+          },
+          "reaches"_a, py::kw_only(), "mirror"_a = true, ReleaseGil(),
+          "Encodes and stores reaches and, with mirror, their mirror images after each; returns the ids.")
       .def(
           "motions", [](const Corpus& self) { return self.table()->motions(); }, ReleaseGil(),
           "All motions in id order: list of MotionSummary.")
@@ -178,6 +257,8 @@ void bind_corpus(py::module_& m) {
   py::class_<Corpus> corpus(m, "Corpus",
                             "Many motions in one SQLite file. Any number of programs may read while one writes. "
                             "Open it after a fork, not before.");
+  bind_stored_source(m);
   bind_opening(corpus);
+  bind_sources(corpus);
   bind_contents(corpus);
 }

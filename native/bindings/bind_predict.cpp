@@ -167,10 +167,11 @@ Motion predict_motion(const Corpus& corpus, const Subject& subject, const Task& 
                       const std::variant<std::monostate, double, std::map<std::string, double>>& duration,
                       const std::optional<DoubleArray>& obstacles, double clearance, const py::object& given_scheme,
                       const std::map<long, DoubleArray>& hand_paths, const std::optional<std::string>& approach,
-                      const std::optional<std::map<std::string, double>>& variation, const py::kwargs& unknown) {
+                      const std::optional<std::map<std::string, double>>& variation, std::optional<std::int64_t> stored,
+                      const py::kwargs& unknown) {
   refuse_unknown(
       unknown, "predict",
-      "body, frame_rate, k, phases, duration, obstacles, clearance, scheme, hand_paths, approach, variation");
+      "body, frame_rate, k, phases, duration, obstacles, clearance, scheme, hand_paths, approach, variation, motion");
   const Scheme scheme = to_scheme(k, given_scheme);
   const std::shared_ptr<const Obstacles> surfaces = to_obstacles(obstacles);
   const std::map<std::size_t, InnerPoints> paths = to_hand_paths(hand_paths);
@@ -186,6 +187,7 @@ Motion predict_motion(const Corpus& corpus, const Subject& subject, const Task& 
                   .clearance_m = clearance,
                   .hand_paths = paths,
                   .approach = to_approach(approach),
+                  .motion = stored,
                   .variation = to_variation(variation)});
 }
 
@@ -279,7 +281,7 @@ void bind_predict(py::module_& m) {
       py::arg("phases") = std::vector<std::string>{"transfer"}, py::arg("duration") = py::none(),
       py::arg("obstacles") = py::none(), py::arg("clearance") = 0.02, py::arg("scheme") = py::none(),
       py::arg("hand_paths") = std::map<long, DoubleArray>{}, py::arg("approach") = py::none(),
-      py::arg("variation") = py::none(),
+      py::arg("variation") = py::none(), py::arg("motion") = py::none(),
       "Corpus, Subject, Task, Body -> Motion. Without a body, published proportions of the subject. k: neighbours in "
       "the mean, 5 unless the scheme says otherwise; scheme: which motions are averaged and how, a dict as "
       "cross_validate takes it. phases: any of 'reach' (empty hands from the sides to the object), 'transfer' (home to "
@@ -293,5 +295,7 @@ void bind_predict(py::module_& m) {
       "follows, "
       "body frame}. approach: 'above', 'front' or 'side', from where the hands come to the target. variation: {'seed': "
       "whole number, 'amount': 0 to 2, 1 by default}: a motion drawn with the recorded people's covariance instead of "
-      "their mean, the same one for the same seed.");
+      "their mean, the same one for the same seed. motion: id of a stored motion, which alone is carried onto this "
+      "body "
+      "and task; there must be one phase, its own.");
 }

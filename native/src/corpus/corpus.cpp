@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "opening.hpp"
+#include "problems.hpp"
 #include "rows.hpp"
+#include "schema.hpp"
 #include "sources.hpp"
 #include "sqlite.hpp"
 
@@ -47,26 +49,6 @@ auto read_row(const fs::path& path, const Read& read) {
   }
 }
 
-void put_meta(Connection& connection, std::string_view key, std::string_view value) {
-  Statement statement(connection, "INSERT OR REPLACE INTO meta (key, value) VALUES (?, ?)");
-  statement.bind(1, key);
-  statement.bind(2, value);
-  statement.run();
-}
-
-void write_empty_corpus(Connection& connection, std::string_view created_by, Precision precision) {
-  Transaction transaction(connection, Transaction::Kind::write);
-  connection.execute("PRAGMA application_id = " + std::to_string(kCorpusApplicationId) +
-                     "; PRAGMA user_version = " + std::to_string(kCorpusSchemaVersion));
-  connection.execute(rows::schema());
-  put_meta(connection, "schema_version", std::to_string(kCorpusSchemaVersion));
-  put_meta(connection, "created_by", created_by);
-  put_meta(connection, "precision", precision == Precision::compact ? "compact" : "exact");
-  put_meta(connection, "kind", "");
-  put_meta(connection, "description", "");
-  transaction.commit();
-}
-
 void require_code(const MotionCode& code, std::size_t position, Precision precision) {
   const std::string complaint = rows::complaint(code, precision);
   if (complaint.empty()) return;
@@ -91,7 +73,7 @@ std::vector<std::int64_t> write_codes(Connection& connection, std::span<const Mo
   rows::Format format = rows::format_of(connection);
   if (format.code_length == 0 && !codes.empty()) {
     format.code_length = codes.front().coefficients.size();
-    put_meta(connection, "code_length", std::to_string(format.code_length));
+    schema::put_meta(connection, "code_length", std::to_string(format.code_length));
   }
   rows::Writer writer(connection, format, source);
   std::vector<std::int64_t> ids;
@@ -129,7 +111,7 @@ Corpus Corpus::create(const fs::path& path, std::string_view created_by, Precisi
   try {
     reporting(path, [&] {
       state->connection = opening::connect(path, true);
-      write_empty_corpus(*state->connection, created_by, precision);
+      schema::write_empty_corpus(*state->connection, created_by, precision);
     });
   } catch (...) {
     state->connection.reset();
@@ -205,6 +187,21 @@ bool Corpus::has_source(const std::string& checksum, const std::string& settings
   return reporting(state_->path, [&] {
     const auto stored = sources::find(connection, checksum);
     return stored && stored->settings == settings;
+  });
+}
+
+std::vector<std::int64_t> Corpus::motions_of(std::int64_t source) const {
+  const std::scoped_lock lock(state_->mutex);
+  Connection& connection = require_open(state_->connection, state_->path);
+  return reporting(state_->path, [&] { return sources::motions_of(connection, source); });
+}
+
+std::vector<std::string> Corpus::check() const {
+  const std::scoped_lock lock(state_->mutex);
+  Connection& connection = require_open(state_->connection, state_->path);
+  return reporting(state_->path, [&] {
+    const Transaction snapshot(connection, Transaction::Kind::read);
+    return problems::find(connection, kMostProblems);
   });
 }
 
@@ -307,7 +304,7 @@ void Corpus::set_meta(std::string_view key, std::string_view value) {
   if (key.empty() || key == "schema_version" || key == "created_by" || key == "code_length" || key == "precision") {
     throw std::invalid_argument("meta key '" + std::string(key) + "' cannot be set: the corpus keeps it itself");
   }
-  reporting(state_->path, [&] { put_meta(connection, key, value); });
+  reporting(state_->path, [&] { schema::put_meta(connection, key, value); });
 }
 
 const fs::path& Corpus::path() const {

@@ -85,10 +85,9 @@ void require_corpus(Connection& connection, const fs::path& path) {
     throw std::invalid_argument(quoted(path) + "has schema version " + std::to_string(version) +
                                 ", this Reachcast reads versions up to " + std::to_string(kCorpusSchemaVersion));
   }
-  if (version == 1) {
-    throw std::invalid_argument(quoted(path) +
-                                "has schema version 1, which this Reachcast no longer reads: build it "
-                                "anew from its recordings");
+  if (version == 1 || version == 2) {
+    throw std::invalid_argument(quoted(path) + "has schema version " + std::to_string(version) +
+                                ", which this Reachcast no longer reads: build it anew from its recordings");
   }
   if (version < 1) {
     throw std::runtime_error(quoted(path) + "is damaged: its schema version is " + std::to_string(version) +

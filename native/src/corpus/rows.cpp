@@ -13,63 +13,6 @@
 
 namespace reachcast::rows {
 
-const char* schema() {
-  // Coefficients have a table of their own: a pass over `motions` then reads little, however long the codes are.
-  // `original` is set where `data` holds but the difference from the mirror image of another motion.
-  return R"sql(
-CREATE TABLE meta (
-  key TEXT PRIMARY KEY NOT NULL,
-  value TEXT NOT NULL
-) STRICT;
-CREATE TABLE subjects (
-  id INTEGER PRIMARY KEY,
-  stature_m REAL NOT NULL,
-  sex TEXT CHECK (sex IN ('female', 'male')),
-  age_years REAL,
-  mass_kg REAL
-) STRICT;
-CREATE INDEX subjects_by_value ON subjects (stature_m, sex, age_years, mass_kg);
-CREATE TABLE sources (
-  id INTEGER PRIMARY KEY,
-  path TEXT NOT NULL,
-  checksum TEXT NOT NULL UNIQUE,
-  bytes INTEGER NOT NULL,
-  tool TEXT NOT NULL,
-  note TEXT NOT NULL,
-  settings TEXT NOT NULL
-) STRICT;
-CREATE TABLE rejections (
-  id INTEGER PRIMARY KEY,
-  source INTEGER NOT NULL REFERENCES sources (id),
-  what TEXT NOT NULL,
-  reason TEXT NOT NULL
-) STRICT;
-CREATE TABLE clips (
-  id INTEGER PRIMARY KEY,
-  origin TEXT NOT NULL UNIQUE,
-  source INTEGER REFERENCES sources (id)
-) STRICT;
-CREATE INDEX clips_by_source ON clips (source);
-CREATE TABLE motions (
-  id INTEGER PRIMARY KEY,
-  subject INTEGER NOT NULL REFERENCES subjects (id),
-  clip INTEGER NOT NULL REFERENCES clips (id),
-  phase TEXT NOT NULL,
-  mirrored INTEGER NOT NULL CHECK (mirrored IN (0, 1)),
-  duration_s REAL NOT NULL,
-  home_x REAL NOT NULL, home_y REAL NOT NULL, home_z REAL NOT NULL,
-  target_x REAL NOT NULL, target_y REAL NOT NULL, target_z REAL NOT NULL,
-  grip_distance_m REAL NOT NULL,
-  UNIQUE (clip, mirrored, phase)
-) STRICT;
-CREATE TABLE codes (
-  motion INTEGER PRIMARY KEY REFERENCES motions (id),
-  original INTEGER REFERENCES motions (id),
-  data BLOB NOT NULL
-) STRICT;
-)sql";
-}
-
 namespace {
 
 enum Column {

@@ -14,9 +14,6 @@
 
 namespace reachcast::rows {
 
-/// Statements that create the tables of an empty database.
-[[nodiscard]] const char* schema();
-
 /// How the coefficients of a corpus are written.
 struct Format {
   std::int64_t code_length = 0;  ///< 0 until a motion was added

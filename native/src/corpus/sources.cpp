@@ -46,9 +46,8 @@ std::int64_t insert(Connection& connection, const SourceFile& file, std::span<co
 std::vector<StoredSource> all(Connection& connection) {
   std::vector<StoredSource> found;
   Statement row(connection,
-                "SELECT s.id, s.path, s.checksum, s.bytes, s.tool, s.note, s.settings, (SELECT count(*) FROM motions m "
-                "JOIN clips c "
-                "ON c.id = m.clip WHERE c.source = s.id) FROM sources s ORDER BY s.id");
+                "SELECT s.id, s.path, s.checksum, s.bytes, s.tool, s.note, s.settings, (SELECT count(*) FROM motions m"
+                " JOIN clips c ON c.id = m.clip WHERE c.source = s.id) FROM sources s ORDER BY s.id");
   Statement rejection(connection, "SELECT what, reason FROM rejections WHERE source = ? ORDER BY id");
   while (row.step()) {
     StoredSource source;
@@ -121,14 +120,17 @@ std::size_t remove(Connection& connection, std::span<const std::int64_t> ids) {
   return gone.size();
 }
 
-std::size_t remove_source(Connection& connection, std::int64_t id) {
+std::vector<std::int64_t> motions_of(Connection& connection, std::int64_t id) {
   std::vector<std::int64_t> ids;
-  {
-    Statement row(connection, "SELECT m.id FROM motions m JOIN clips c ON c.id = m.clip WHERE c.source = ?");
-    row.bind(1, id);
-    while (row.step()) ids.push_back(row.integer(0));
-  }
-  const std::size_t count = remove(connection, ids);
+  Statement row(connection,
+                "SELECT m.id FROM motions m JOIN clips c ON c.id = m.clip WHERE c.source = ? ORDER BY m.id");
+  row.bind(1, id);
+  while (row.step()) ids.push_back(row.integer(0));
+  return ids;
+}
+
+std::size_t remove_source(Connection& connection, std::int64_t id) {
+  const std::size_t count = remove(connection, motions_of(connection, id));
   delete_source(connection, id);
   return count;
 }

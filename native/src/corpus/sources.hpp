@@ -24,6 +24,9 @@ struct Key {
                                   std::span<const Rejection> rejections);
 [[nodiscard]] std::vector<StoredSource> all(sqlite::Connection& connection);
 
+/// In id order; none for an unknown file.
+[[nodiscard]] std::vector<std::int64_t> motions_of(sqlite::Connection& connection, std::int64_t id);
+
 /// Takes away a file and the motions that came from it. Returns how many motions there were.
 std::size_t remove_source(sqlite::Connection& connection, std::int64_t id);
 

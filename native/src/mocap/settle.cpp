@@ -104,7 +104,7 @@ void settle_up(const MotionFileOptions& options, const FileSays& says, const std
 }
 
 [[noreturn]] void fail_unit(const MotionFile& file, const std::string& found) {
-  throw std::invalid_argument(file.source + ": expected a skeleton 1.4 to 2.1 m tall in some known unit, found " +
+  throw std::invalid_argument(file.source + ": expected a skeleton 1.15 to 2.1 m tall in some known unit, found " +
                               found + "; give metres_per_unit");
 }
 

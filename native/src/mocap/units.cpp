@@ -12,7 +12,9 @@
 namespace reachcast {
 namespace {
 
-constexpr double kShortest_m = 1.4;
+// From the lowest joint of the feet to the highest of the head, of people from 1.4 to 2.1 m: the first joint of the head
+// lies at 0.83 of the stature or above.
+constexpr double kShortest_m = 1.15;
 constexpr double kTallest_m = 2.1;
 
 // Their ranges for a standing adult do not overlap, so the choice is unique.

@@ -108,4 +108,26 @@ LearnedStage learn_stage(const Corpus& corpus, const MotionTable& table, const Q
   return out;
 }
 
+LearnedStage retargeted_stage(const Corpus& corpus, const MotionTable& table, const Query& query, std::int64_t id) {
+  const auto& motions = table.motions();
+  const auto found =
+      std::lower_bound(motions.begin(), motions.end(), id,
+                       [](const MotionSummary& motion, std::int64_t wanted) { return motion.id < wanted; });
+  if (found == motions.end() || found->id != id) {
+    throw std::invalid_argument("the corpus " + corpus.path().string() + " has no motion " + std::to_string(id));
+  }
+  if (found->phase != query.phase) {
+    throw std::invalid_argument("motion " + std::to_string(id) + " is a " + std::string(phase_name(found->phase)) +
+                                "; it cannot serve as a " + std::string(phase_name(query.phase)));
+  }
+  const std::vector<std::uint32_t>& rows = table.of(query.phase).rows;
+  const auto at = std::lower_bound(rows.begin(), rows.end(), static_cast<std::uint32_t>(found - motions.begin()));
+  const std::shared_ptr<const MotionCode> code = corpus.code(id);
+  const WeightedCode alone{code.get(), 1.0};
+  LearnedStage out;
+  blend_codes({&alone, 1}, {}, query, out.blend);
+  out.blend.neighbours = {named(table, query, {static_cast<std::uint32_t>(at - rows.begin()), 1.0})};
+  return out;
+}
+
 }  // namespace reachcast

@@ -39,6 +39,10 @@ void check(const Subject& subject, const PredictOptions& options) {
     fail("a hand path is given for phase number ", options.hand_paths.rbegin()->first, ", but there are ",
          options.phases.size(), ", counted from 0");
   }
+  if (options.motion && (options.variation || options.phases.size() != 1)) {
+    fail("motion ", *options.motion, " is asked for alone; then there must be one phase, not ", options.phases.size(),
+         ", and no variation");
+  }
   for (const auto& [phase, seconds] : options.durations_s) {
     if (!(seconds >= 0.1 && seconds <= 60.0)) {
       fail("duration of ", phase_name(phase), " is ", seconds, " s; it must lie between 0.1 and 60 s");
@@ -162,7 +166,9 @@ LearnedStage learned_for(const Corpus& corpus, const MotionTable& table, const S
                          const Subject& subject, const PredictOptions& options, Motion& motion) {
   const Query query{stage.phase, hold_point(hands.first), hold_point(hands.last), subject,
                     given_seconds(stage.phase, options)};
-  LearnedStage learned = learn_stage(corpus, table, query, options.scheme, options.variation, motion.neighbours.size());
+  LearnedStage learned =
+      options.motion ? retargeted_stage(corpus, table, query, *options.motion)
+                     : learn_stage(corpus, table, query, options.scheme, options.variation, motion.neighbours.size());
   for (const std::string& reason : learned.outside) {
     const std::string said = options.phases.size() > 1 ? std::string(phase_name(stage.phase)) + ": " + reason : reason;
     if (std::find(motion.outside_data.begin(), motion.outside_data.end(), said) == motion.outside_data.end())

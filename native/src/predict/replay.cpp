@@ -66,17 +66,30 @@ bool Replay::perform(const Blend& blend, PathForm form, ReplayPostures& postures
   return perform(way_of(blend.whole, form), coordinates, postures);
 }
 
-bool Replay::perform(const EndpointWay& way, const Coordinates& coordinates, ReplayPostures& postures) const {
-  Anchors anchors = anchors_;
-  for (int i = 0; i < kReplayTimes; ++i) {
-    const Vec3 hold = point_at(way, home_, target_, time_of(i));
-    anchors.grip = {hold - half_grip_, hold + half_grip_};
-    HoldReport report;
-    postures[static_cast<std::size_t>(i)] =
-        holder_.hold(linkage_.decode(coordinates.col(i), anchors), anchors, {hold, 0.0}, report);
-    if (report.shortfall_m > 0.0) return false;
+bool Replay::perform(const MotionCode& code, PathForm form, std::span<const double> times,
+                     std::span<Posture> postures) const {
+  const EndpointWay way = way_of(code, form);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const Eigen::VectorXd coordinates = curves_of(code).transpose() * bspline_row(times[i]).transpose();
+    if (!hold_at(way, coordinates, times[i], postures[i])) return false;
   }
   return true;
+}
+
+bool Replay::perform(const EndpointWay& way, const Coordinates& coordinates, ReplayPostures& postures) const {
+  for (int i = 0; i < kReplayTimes; ++i) {
+    if (!hold_at(way, coordinates.col(i), time_of(i), postures[static_cast<std::size_t>(i)])) return false;
+  }
+  return true;
+}
+
+bool Replay::hold_at(const EndpointWay& way, const Eigen::VectorXd& coordinates, double t, Posture& posture) const {
+  Anchors anchors = anchors_;
+  const Vec3 hold = point_at(way, home_, target_, t);
+  anchors.grip = {hold - half_grip_, hold + half_grip_};
+  HoldReport report;
+  posture = holder_.hold(linkage_.decode(coordinates, anchors), anchors, {hold, 0.0}, report);
+  return report.shortfall_m == 0.0;
 }
 
 double mean_distance(const ReplayPostures& a, const ReplayPostures& b) {

@@ -106,6 +106,22 @@ TEST(CorpusSources, MirrorImagesKeptAsADifferenceGoWithTheirMotion) {
   EXPECT_EQ(corpus.size(), 1U);
 }
 
+TEST(CorpusSources, EachFileKnowsItsMotions) {
+  const TemporaryFolder folder;
+  Corpus corpus = Corpus::create(folder / "a", "test");
+  const std::vector<MotionCode> codes = random_codes(7, 6);
+  corpus.add(std::span(codes).subspan(0, 1));
+  ASSERT_TRUE(corpus.add_source(kFile, std::span(codes).subspan(1, 2), {}));
+  SourceFile other = kFile;
+  other.checksum = "sha256:03";
+  const auto second =
+      corpus.add_source(other, std::span(codes).subspan(2, 4), {});  // the first of them is there already
+  ASSERT_TRUE(second);
+  EXPECT_EQ(corpus.motions_of(1), (std::vector<std::int64_t>{2, 3}));
+  EXPECT_EQ(corpus.motions_of(second->id), (std::vector<std::int64_t>{4, 5, 6}));
+  EXPECT_TRUE(corpus.motions_of(99).empty());
+}
+
 TEST(CorpusSources, WhatCannotBeStoredLeavesNothing) {
   const TemporaryFolder folder;
   Corpus corpus = Corpus::create(folder / "a", "test");
@@ -121,7 +137,8 @@ TEST(CorpusSources, WhatCannotBeStoredLeavesNothing) {
   EXPECT_TRUE(corpus.sources().empty());
   EXPECT_EQ(corpus.size(), 0U);
   Corpus reader = Corpus::open(folder / "a");
-  expect_contains(message_of<std::invalid_argument>([&] { reader.add_source(kFile, {}, {}); }), "opened for reading only");
+  expect_contains(message_of<std::invalid_argument>([&] { reader.add_source(kFile, {}, {}); }),
+                  "opened for reading only");
 }
 
 }  // namespace

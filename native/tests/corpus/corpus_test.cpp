@@ -163,7 +163,7 @@ TEST(Corpus, KeepsMetadata) {
     corpus.set_meta("licence", "");
   }
   const std::map<std::string, std::string> expected{
-      {"created_by", "reachcast 9.8"},   {"schema_version", "2"}, {"precision", "exact"}, {"kind", "recorded"},
+      {"created_by", "reachcast 9.8"},   {"schema_version", "3"}, {"precision", "exact"}, {"kind", "recorded"},
       {"description", "Zwölf Personen"}, {"licence", ""}};
   EXPECT_EQ(Corpus::open(folder / "a").meta(), expected);
 }

@@ -111,7 +111,7 @@ TEST(Bvh, UnitIsGuessedFromTheHeightOrAskedFor) {
   EXPECT_DOUBLE_EQ(scaled("25").guess.metres_per_unit, 0.0254 / 0.45);
   EXPECT_EQ(scaled("165").guess.up, "y");
   EXPECT_EQ(complaint([&] { scaled("10"); }),
-            "hand.bvh: expected a skeleton 1.4 to 2.1 m tall in some known unit, found 15 units from foot to head; "
+            "hand.bvh: expected a skeleton 1.15 to 2.1 m tall in some known unit, found 15 units from foot to head; "
             "give metres_per_unit");
 }
 

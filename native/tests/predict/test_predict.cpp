@@ -61,6 +61,38 @@ TEST(Predict, OneMotionOnItsOwnBodyAndTaskGivesTheRecordingBack) {
   }
 }
 
+TEST(Predict, AStoredMotionAloneIsWhatACorpusOfItGives) {
+  TemporaryFolder folder;
+  Corpus many = Corpus::create(folder / "many.sqlite");
+  std::vector<MotionCode> codes;
+  for (const double stature : {1.6, 1.7, 1.8})
+    codes.push_back(encode_reach(made_lift(stature, {0.02, 0.42, 0.3}, {0.02, 0.42, 0.6 + 0.3 * stature}, 25)));
+  for (std::size_t i = 0; i < codes.size(); ++i) codes[i].origin = "lift " + std::to_string(i);
+  const std::vector<std::int64_t> ids = many.add(codes);
+  const Body body = Body::from_stature(1.75);
+  const Task t = task({0.0, 0.4, 0.4}, {0.1, 0.45, 1.2});
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    Corpus one = Corpus::create(folder / ("one" + std::to_string(i)));
+    one.add(std::span(codes).subspan(i, 1));
+    const Motion expected = predict(one, subject(1.75), t, body, options(24.0, 1));
+    PredictOptions alone = options(24.0, 5);
+    alone.motion = ids[i];
+    const Motion motion = predict(many, subject(1.75), t, body, alone);
+    ASSERT_EQ(motion.postures.size(), expected.postures.size());
+    for (std::size_t f = 0; f < motion.postures.size(); ++f) {
+      for (std::size_t j = 0; j < kJointCount; ++j)
+        EXPECT_LT(glm::distance(motion.postures[f][j], expected.postures[f][j]), 1e-9);
+    }
+    ASSERT_EQ(motion.neighbours.at(0).neighbours.size(), 1U);
+    EXPECT_EQ(motion.neighbours[0].neighbours[0].origin, codes[i].origin);
+    alone.phases = {Phase::reach};
+    EXPECT_THROW((void)predict(many, subject(1.75), t, body, alone), std::invalid_argument);
+    alone.phases = {Phase::transfer};
+    alone.motion = 77;
+    EXPECT_THROW((void)predict(many, subject(1.75), t, body, alone), std::invalid_argument);
+  }
+}
+
 TEST(Predict, TwoCallsAgreeInEveryBit) {
   const Task t = task({0.0, 0.42, 0.0}, {0.2, 0.4, 0.95});
   const Body body = Body::from_stature(1.68);

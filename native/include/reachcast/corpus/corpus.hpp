@@ -27,9 +27,10 @@
 
 namespace reachcast {
 
-inline constexpr int kCorpusSchemaVersion = 2;                    ///< PRAGMA user_version
+inline constexpr int kCorpusSchemaVersion = 3;                    ///< PRAGMA user_version
 inline constexpr std::int32_t kCorpusApplicationId = 0x52434350;  ///< PRAGMA application_id: "RCCP"
 inline constexpr std::size_t kRememberedCodes = 4096;
+inline constexpr std::size_t kMostProblems = 100;
 inline constexpr int kBusyTimeout_ms = 30'000;  ///< how long to wait for another process
 
 /// How coefficients are kept: as they are, or as multiples of kCompactStep in a fifth of the bytes, mirror images as
@@ -75,6 +76,10 @@ class Corpus {
   [[nodiscard]] std::vector<StoredSource> sources() const;  ///< all, in id order
   /// Whether `add_source` would change nothing.
   [[nodiscard]] bool has_source(const std::string& checksum, const std::string& settings) const;
+  /// The motions that came from a file, in id order; none for an unknown id.
+  [[nodiscard]] std::vector<std::int64_t> motions_of(std::int64_t source) const;
+  /// Reads everything: what is wrong with the file, one sentence each, at most kMostProblems of them. Empty if nothing.
+  [[nodiscard]] std::vector<std::string> check() const;
   /// Takes motions away, and with the last of a file the file, so that it can be imported again. In a compact corpus
   /// mirror images go with their motion. Unknown ids are no error. Returns how many motions there were.
   std::size_t remove(std::span<const std::int64_t> ids);

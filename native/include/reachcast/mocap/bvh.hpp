@@ -20,7 +20,7 @@ namespace reachcast {
 
 /// Names are the joints and end sites in file order. The vertical axis is the one along which the head is highest above
 /// the feet on the mean over frames (y when names do not tell); the unit is the one of m, cm, mm, inch, foot and the
-/// CMU database's 0.0564 m in which the bones from foot to head add up to 1.4 to 2.1 m. Throws std::invalid_argument,
+/// CMU database's 0.0564 m in which the bones from foot to head add up to 1.15 to 2.1 m. Throws std::invalid_argument,
 /// worded `file:line: expected X, found Y`, for malformed input, and when no unit fits and none was given.
 [[nodiscard]] MotionFile read_bvh(const std::string& path, const MotionFileOptions& options = {});
 

@@ -36,4 +36,8 @@ struct LearnedStage {
                                        const Scheme& scheme, const std::optional<Variation>& variation,
                                        std::uint64_t draw);
 
+/// One stored motion as it is, on the wanted axis. Throws std::invalid_argument for an unknown id and another phase.
+[[nodiscard]] LearnedStage retargeted_stage(const Corpus& corpus, const MotionTable& table, const Query& query,
+                                            std::int64_t id);
+
 }  // namespace reachcast

@@ -28,11 +28,17 @@ class Replay {
   /// False where the body cannot hold the box somewhere on the way; `postures` are then of no use.
   [[nodiscard]] bool perform(const MotionCode& code, PathForm form, ReplayPostures& postures) const;
   [[nodiscard]] bool perform(const Blend& blend, PathForm form, ReplayPostures& postures) const;
+  /// At any scaled times in [0, 1], one posture for each.
+  [[nodiscard]] bool perform(const MotionCode& code, PathForm form, std::span<const double> times,
+                             std::span<Posture> postures) const;
 
  private:
   using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, kReplayTimes>;
   explicit Replay(const MotionSummary& motion);
   [[nodiscard]] bool perform(const EndpointWay& way, const Coordinates& coordinates, ReplayPostures& postures) const;
+  /// One posture at scaled time t; false where the body cannot hold the box.
+  [[nodiscard]] bool hold_at(const EndpointWay& way, const Eigen::VectorXd& coordinates, double t,
+                             Posture& posture) const;
 
   Vec3 home_, target_, half_grip_;
   Anchors anchors_;
