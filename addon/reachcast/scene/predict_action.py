@@ -98,7 +98,8 @@ def describe(solved: Solved, rig: str, action: bpy.types.Action, box_action: bpy
         tuple(Neighbour(near.id, near.origin, near.mirrored, near.weight, MappingProxyType(dict(near.distances)),
                         near.phase)
               for near in motion.neighbours),
-        motion.outside_data, tuple(map(str, motion.outside_reasons)), tuple(map(_said, motion.corrections)),
+        motion.outside_data, tuple(map(str, motion.outside_reasons)),
+        tuple(map(correction_in_words, motion.corrections)),
         tuple(zip((phase for phase, _, _ in motion.phases), motion.ways)), MappingProxyType(dict(solved.errors)),
         solved.corpus_kind)
     _label(action, result)
@@ -115,7 +116,7 @@ def box_origins(lift: Lift, places: tuple[Array, Array]) -> Array:
     return places[0] + box_turns(lift, places) @ np.array(lift.box.origin_offset)
 
 
-def _said(correction: Any) -> str:
+def correction_in_words(correction: Any) -> str:
     """A correction in words: what was moved, by how much at most, in how many frames."""
     parts = [f"{1000.0 * correction.metres:.0f} mm"] if correction.metres else []
     parts += [f"{math.degrees(correction.radians):.0f} degrees"] if correction.radians else []

@@ -50,6 +50,7 @@ class Solved:
     motion: Any                     #: reachcast_core.Motion
     pose: Any                       #: reachcast_core.RigPose
     joints: Array                   #: (F, 27, 3) world
+    reached: Array                  #: (F, 27, 3) world: the same joints as the posed bones carry them
     places: tuple[Array, Array]     #: of the box: origins (F, 3) and turns (F, 3, 3), world
     errors: Mapping[str, float]     #: metres: landing (if placed), grip (if held), pose
     corpus_kind: str                #: "recorded", "simulated", ... as the corpus says; "recorded" where it does not
@@ -89,7 +90,8 @@ def solve(prepared: Prepared, **options: object) -> Solved:
     joints = skeleton.to_world(np.asarray(motion.positions, float))
     pose = retarget(skeleton, joints)
     places = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
-    return Solved(motion, pose, joints, places, _errors(skeleton, lift, motion, pose, joints, places),
+    reached = pose.joints()
+    return Solved(motion, pose, joints, reached, places, _errors(skeleton, lift, motion, reached, joints, places),
                   prepared.corpus.meta["kind"] or "recorded")
 
 
@@ -143,11 +145,10 @@ def _predict(core: ModuleType, prepared: Prepared, options: Mapping[str, object]
         raise ValueError(f"One of these options has a value of the wrong kind: {given}") from error
 
 
-def _errors(skeleton: Skeleton, lift: Lift, motion: Any, pose: Any, joints: Array,
+def _errors(skeleton: Skeleton, lift: Lift, motion: Any, reached: Array, joints: Array,
             places: tuple[Array, Array]) -> dict[str, float]:
     """How far the rig's bones, by forward kinematics, are from what was asked: the box from where it is put down, the
     grips from their handles, the joints from the prediction. ValueError when the rig cannot follow."""
-    reached = pose.joints()
     misfit = np.linalg.norm(reached - joints, axis=2)[:, EXACT_JOINTS]
     if (worst := float(misfit.max())) > MAX_MISFIT_M:
         frame, joint = np.unravel_index(int(misfit.argmax()), misfit.shape)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..rigs.rotations import Array
 from ..rigs.skeleton import Skeleton
-from .transforms import MAX_UNEVEN, above_matrix, described, placement
+from .transforms import MAX_UNEVEN, Placement, above_matrix, described, placement
 
 HANDLE_HEIGHT = "reachcast_handle_height"   #: custom property of a box, metres above its base
 GRIP_DISTANCE = "reachcast_grip_distance"   #: custom property of a box, metres between the centres of the two grips
@@ -74,6 +74,17 @@ def read_lift(skeleton: Skeleton, shelf: bpy.types.Object, home: bpy.types.Objec
         return Lift(_in_front(skeleton, shape), _placed(skeleton, target.origin), 0.0, target_yaw, shape, False)
     home_yaw, half_turn = _half_turns(_yaw(skeleton, rotation))
     return Lift(_placed(skeleton, place), _placed(skeleton, target.origin), home_yaw, target_yaw, shape, half_turn)
+
+
+def lift_between(skeleton: Skeleton, shape: BoxShape, home: Placement | None, target: Placement) -> Lift:
+    """The task from world placements: of the middle of the box's base at home (None: in front of the body at waist
+    height, square to it) and at its end."""
+    target_yaw, _ = _half_turns(_yaw(skeleton, target.rotation))
+    end = _placed(skeleton, target.origin)
+    if home is None:
+        return Lift(_in_front(skeleton, shape), end, 0.0, target_yaw, shape, False)
+    home_yaw, half_turn = _half_turns(_yaw(skeleton, home.rotation))
+    return Lift(_placed(skeleton, home.origin), end, home_yaw, target_yaw, shape, half_turn)
 
 
 def place_of(skeleton: Skeleton, item: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> tuple[Array, float]:

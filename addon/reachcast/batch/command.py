@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line of a batch."""
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from .run import run_batch
+from .store import DiskFull
+from .tasks import OUTPUTS, PHASES
+
+COLUMNS_HELP = f"""columns of the table (all but target may be missing or empty; JSON Lines has the same names as keys):
+  id         names the result's folder; row-00001, ... where it is empty
+  rig        an armature of the scene; empty: a mannequin at the origin that faces +y (x to its right, z up)
+  stature    metres        sex  female or male        age  years        mass  of the person, kg
+  home       where the box starts: 'x y z', 'x y z degrees' or an object's name; empty: at waist height in front
+  target     where the middle of the box's base ends, likewise; without degrees the box faces the worker's feet
+  object     a mesh's name, or width x depth x height in metres (0.35x0.30x0.25 where empty)
+  load       mass of the object, kg
+  phases     any of {', '.join(PHASES)}, separated by blanks (transfer where empty)
+  variants   so many motions drawn from seeds seed, seed + 1, ...; 0 or empty: the mean motion
+  outputs    any of {', '.join(OUTPUTS)}, separated by blanks (csv where empty)
+"""
+
+
+def main(arguments: Sequence[str]) -> int:
+    parser = argparse.ArgumentParser(
+        prog="batch.py", formatter_class=argparse.RawDescriptionHelpFormatter, epilog=COLUMNS_HELP,
+        description="Does every task of a table, and writes DIR/tasks/ID/ for each and DIR/results.csv for all. A second "
+                    "start does what is not done yet or has changed. Exit status 1: some motions are missing or failed.")
+    parser.add_argument("table", type=Path, help="tasks.csv or tasks.jsonl")
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder of the results")
+    parser.add_argument("--corpus", type=Path, help="motions to learn from; without it the corpus that ships")
+    parser.add_argument("--part", default="1/1", metavar="I/N", help="do the I-th of N parts and write no results.csv")
+    options = parser.parse_args(list(arguments))
+    try:
+        part = tuple(map(int, options.part.split("/")))
+        if len(part) != 2:
+            raise ValueError(f"--part is '{options.part}'; it must be like 2/8")
+        found = run_batch(options.table, options.out, corpus=options.corpus, part=part,  # type: ignore[arg-type]
+                          collect=options.part == "1/1", say=lambda line: print(line, flush=True))
+    except (ValueError, DiskFull) as error:
+        print(f"batch: {error}.", file=sys.stderr, flush=True)
+        return 2
+    said = ", ".join(f"{count} {status}" for status, count in found.counts.items())
+    rate = found.worked / max(found.seconds["whole"], 1e-9)
+    print(f"{said or 'part done'}; {found.worked} made now in {found.seconds['whole']:.1f} s ({rate:.0f} a second): "
+          f"predict {found.seconds['predict']:.1f} s, write {found.seconds['write']:.1f} s", flush=True)
+    return 1 if set(found.counts) & {"failed", "missing"} else 0

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Who does a task and with what, in Blender's scene. A rig is read once for all the tasks of its person."""
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import bpy
+import numpy as np
+from mathutils import Vector
+
+from .. import native
+from ..rigs.rotations import Array
+from ..rigs.skeleton import Skeleton
+from ..scene.mannequin import build_mannequin
+from ..scene.prepare import Prepared, refuse_owners
+from ..scene.read_rig import read_rig
+from ..scene.read_task import BOX_MASS, BoxShape, lift_between, read_box
+from ..scene.transforms import Placement, placement
+from .tasks import Task, Unit
+
+DEFAULT_STATURE = 1.75
+DEFAULT_BOX = (0.35, 0.30, 0.25)
+MOST_KEPT = 8   #: rigs or boxes that were made for tasks and stay in the scene
+
+
+@dataclass(frozen=True)
+class Worker:
+    rig: bpy.types.Object
+    skeleton: Skeleton
+
+
+@dataclass(frozen=True)
+class Load:
+    box: bpy.types.Object
+    shape: BoxShape
+
+
+def person_of(task: Task) -> tuple[object, ...]:
+    """Tasks with the same one are done by the same rig."""
+    return (task.rig, None if task.rig else (task.stature or DEFAULT_STATURE), None if task.rig else task.sex)
+
+
+class Stage:
+    """Rigs and boxes by task. `corpus` is an opened reachcast_core.Corpus."""
+
+    def __init__(self, corpus: Any) -> None:
+        self.corpus, self.scene = corpus, bpy.context.scene
+        self.frame_rate = self.scene.render.fps / self.scene.render.fps_base
+        self._workers: dict[Hashable, Worker] = {}
+        self._loads: dict[Hashable, Load] = {}
+        self._checked: set[tuple[str, str]] = set()
+
+    def prepared(self, unit: Unit) -> tuple[Prepared, Worker, Load]:
+        """Everything `solve` needs. ValueError in one sentence."""
+        task = unit.task
+        worker, load = self._worker(task), self._load(task)
+        skeleton = worker.skeleton
+        if task.rig is not None or isinstance(task.object, str):
+            self._refuse_unwritable(worker, load)
+        home = self._placed(task.home, skeleton) if task.home is not None else \
+            self._standing(load) if isinstance(task.object, str) else None
+        lift = lift_between(skeleton, load.shape, home, self._placed(task.target, skeleton))
+        subject = native.core().Subject(task.stature or skeleton.height, sex=task.sex, age=task.age, mass=task.mass)
+        options: dict[str, object] = {"frame_rate": self.frame_rate, "phases": list(task.phases)}
+        if unit.seed is not None:
+            options["variation"] = {"seed": unit.seed}
+        return Prepared(skeleton, lift, subject, self.corpus, options), worker, load
+
+    def _refuse_unwritable(self, worker: Worker, load: Load) -> None:
+        """ValueError when an Action would not be all that moves the scene's own rig or box; looked at once a pair."""
+        pair = (worker.rig.name, load.box.name)
+        if pair not in self._checked:
+            refuse_owners(worker.rig, worker.skeleton, load.box, bpy.context.view_layer)
+            self._checked.add(pair)
+
+    def _worker(self, task: Task) -> Worker:
+        key = person_of(task)
+        if key not in self._workers:
+            if task.rig is not None:
+                rig = _named(task.rig, "rig")
+            else:
+                _make_room(self._workers, lambda worker: _remove(worker.rig), lambda key: key[0] is None)
+                rig = add_mannequin(task.stature or DEFAULT_STATURE, task.sex)
+            self._workers[key] = Worker(rig, read_rig(rig))
+        return self._workers[key]
+
+    def _load(self, task: Task) -> Load:
+        key = (task.object, task.load)
+        if key not in self._loads:
+            if isinstance(task.object, str):
+                box = _named(task.object, "object")
+                shape = read_box(box)
+                if task.load is not None:
+                    shape = replace(shape, mass=task.load)
+            else:
+                _make_room(self._loads, lambda load: _remove(load.box), lambda key: not isinstance(key[0], str))
+                box = add_cuboid(task.object or DEFAULT_BOX)
+                if task.load is not None:
+                    box[BOX_MASS] = task.load
+                shape = read_box(box)
+            self._loads[key] = Load(box, shape)
+        return self._loads[key]
+
+    def _standing(self, load: Load) -> Placement:
+        place = placement(load.box)
+        return Placement(place.origin - place.rotation @ np.array(load.shape.origin_offset), place.rotation, place.scale)
+
+    def _placed(self, place: tuple[float, ...] | str, skeleton: Skeleton) -> Placement:
+        """Numbers without a turn face the worker's feet."""
+        if isinstance(place, str):
+            return placement(_named(place, "place"))
+        origin = np.array(place[:3])
+        if len(place) == 4:
+            return Placement(origin, _about_z(math.radians(place[3])), np.ones(3))
+        x, y, _ = skeleton.to_body(origin)
+        facing = -math.atan2(x, y) if math.hypot(x, y) > 1e-6 else 0.0
+        return Placement(origin, skeleton.axes.T @ _about_z(facing), np.ones(3))
+
+
+def add_mannequin(stature: float, sex: str | None) -> bpy.types.Object:
+    """Standing at the origin, facing +y."""
+    core = native.core()
+    posture = core.Body.from_stature(stature, sex=sex).posture
+    joints = {name: tuple(map(float, place)) for name, place in zip(core.JOINTS, posture)}
+    rig = build_mannequin(bpy.context.scene.collection, joints, sex, name="Worker", stature=stature)
+    rig.rotation_euler.z = math.pi
+    bpy.context.view_layer.update()
+    rig.location -= Vector(read_rig(rig).origin.tolist())
+    bpy.context.view_layer.update()
+    return rig
+
+
+def add_cuboid(size: tuple[float, ...]) -> bpy.types.Object:
+    """A box whose origin is the middle of its base."""
+    mesh = bpy.data.meshes.new("Box")
+    corners = [(a * size[0] / 2, b * size[1] / 2, c * size[2]) for a in (-1, 1) for b in (-1, 1) for c in (0, 1)]
+    mesh.from_pydata(corners, [], [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
+    box = bpy.data.objects.new("Box", mesh)
+    bpy.context.scene.collection.objects.link(box)
+    return box
+
+
+def _about_z(angle: float) -> Array:
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+
+
+def _named(name: str, what: str) -> bpy.types.Object:
+    item = bpy.context.scene.objects.get(name)
+    if item is None:
+        raise ValueError(f"The {what} '{name}' is not in the scene")
+    return item
+
+
+def _make_room(kept: dict[Any, Any], remove: Any, is_made: Any) -> None:
+    """Takes the oldest of what was made for tasks out of the file when there are many."""
+    made = [key for key in kept if is_made(key)]
+    if len(made) >= MOST_KEPT:
+        remove(kept.pop(made[0]))
+
+
+def _remove(item: bpy.types.Object) -> None:
+    """The object, its children and all that was made for them alone."""
+    items = [*(child for child in item.children if child.type == "MESH"), item]
+    data = [each.data for each in items]
+    bpy.data.batch_remove(items)
+    bpy.data.batch_remove([each for each in data if each.users == 0])

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where results lie: `tasks/ID/`, which appears by one rename when all of it is written, and the table made of them."""
+from __future__ import annotations
+
+import csv
+import errno
+import json
+import os
+import shutil
+import socket
+from collections.abc import Iterable
+from pathlib import Path
+
+from .table import BadRow
+from .tasks import Unit
+
+RESULT = "result.json"
+COLUMNS = ("id", "status", "reason", "landing_error_mm", "grip_error_mm", "foot_slip_mm", "duration_s", "durations",
+           "outside_data", "neighbours", "corrections", "files")
+LEAST_ROOM = 256 * 1024  #: bytes; with less than this left, what Blender wrote may have been cut short unnoticed
+
+
+class DiskFull(Exception):
+    """One sentence; the whole run stops."""
+
+
+class Store:
+    """The results in a folder. Several processes may use one; each works in a draft folder of its own."""
+
+    def __init__(self, out: Path) -> None:
+        self.out, self.tasks = out, out / "tasks"
+        self.drafts = out / "drafts"
+        self.own = self.drafts / f"{socket.gethostname()}-{os.getpid()}"
+        try:
+            self.tasks.mkdir(parents=True, exist_ok=True)
+            self.drafts.mkdir(exist_ok=True)
+            self._drop_orphans()
+            self.own.mkdir(exist_ok=True)
+        except OSError as error:
+            self.refuse_full(error)
+            raise ValueError(f"The folder '{out}' cannot be written to: {error.strerror}") from error
+
+    def close(self) -> None:
+        shutil.rmtree(self.own, ignore_errors=True)
+        for empty in (self.drafts,):
+            try:
+                empty.rmdir()
+            except OSError:
+                pass  # another process works there
+
+    def result(self, unit: Unit) -> dict[str, object] | None:
+        """What is finished under this unit's id, whatever it was made of."""
+        try:
+            return json.loads((self.tasks / unit.id / RESULT).read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return None
+
+    def draft(self, unit: Unit) -> Path:
+        """An empty folder to work in."""
+        folder = self.own / unit.id
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        return folder
+
+    def finish(self, unit: Unit, draft: Path, result: dict[str, object]) -> None:
+        """The draft becomes the unit's folder. Until the last rename nothing of it is seen."""
+        (draft / RESULT).write_text(json.dumps(result) + "\n", encoding="utf-8")
+        self.refuse_full()
+        final = self.tasks / unit.id
+        if final.exists():
+            old = self.own / f"{unit.id}.old"
+            os.rename(final, old)
+            os.rename(draft, final)
+            shutil.rmtree(old, ignore_errors=True)
+        else:
+            os.rename(draft, final)
+
+    def refuse_full(self, error: OSError | None = None) -> None:
+        """DiskFull when `error` says so or next to nothing is left."""
+        free = shutil.disk_usage(self.out if self.out.exists() else self.out.parent).free
+        if free < LEAST_ROOM or (error is not None and error.errno in (errno.ENOSPC, errno.EDQUOT)):
+            raise DiskFull(f"The disk of '{self.out}' is full ({free // 1024} KiB left); what was finished is kept: "
+                           f"make room and start again")
+
+    def write_results(self, units: Iterable[Unit | BadRow], name: str = "results.csv") -> dict[str, int]:
+        """`results.csv` in the table's order, and how many there are of each status."""
+        counts: dict[str, int] = {}
+        part = self.own / name
+        with part.open("w", encoding="utf-8", newline="") as file:
+            rows = csv.DictWriter(file, COLUMNS, restval="", extrasaction="ignore", lineterminator="\n")
+            rows.writeheader()
+            for unit in units:
+                row = self._row(unit)
+                counts[str(row["status"])] = counts.get(str(row["status"]), 0) + 1
+                rows.writerow(row)
+        os.replace(part, self.out / name)
+        return counts
+
+    def _row(self, unit: Unit | BadRow) -> dict[str, object]:
+        if isinstance(unit, BadRow):
+            return {"id": unit.id, "status": "bad row", "reason": unit.reason}
+        result = self.result(unit)
+        if result is None:
+            return {"id": unit.id, "status": "missing", "reason": "it has not been worked on"}
+        return {"id": unit.id, **result}
+
+    def _drop_orphans(self) -> None:
+        """Drafts of processes of this machine that are no more."""
+        for folder in self.drafts.iterdir():
+            host, _, process = folder.name.rpartition("-")
+            if host == socket.gethostname() and not Path(f"/proc/{process}").exists():
+                shutil.rmtree(folder, ignore_errors=True)
