@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An armature with an Action, however it came into Blender, as a recording: sampled through its bone map."""
+from __future__ import annotations
+
+import hashlib
+from dataclasses import replace
+from typing import Any
+
+import bpy
+import numpy as np
+
+from .. import native
+from ..reachcast_corpus.importing import FileReport
+from ..reachcast_corpus.recordings import ReadingOptions, settings_of
+from ..rigs.joints import JOINTS
+from .measure import sample
+from .read_rig import read_rig
+from .transforms import layer_of
+
+
+def captured_clip(rig: bpy.types.Object, first: int, last: int, *, bone_map: object = None,
+                  scene: bpy.types.Scene | None = None) -> Any:
+    """A reachcast_core.Clip of the joint centres in the frames first to last as the scene evaluates them: metres,
+    world, at the scene's frame rate. ValueError names what is wrong with rig or frames."""
+    scene = scene or bpy.context.scene
+    if last - first < 3:
+        raise ValueError(f"Frames {first} to {last} are {max(0, last - first + 1)}; a recording has at least 4")
+    skeleton = read_rig(rig, bone_map, layer_of(scene))
+    joints = sample(rig, skeleton, range(first, last + 1), scene=scene).joints
+    return native.core().Clip(list(JOINTS), np.ascontiguousarray(joints), scene.render.fps / scene.render.fps_base,
+                              _name_of(rig))
+
+
+def capture_motion(rig: bpy.types.Object, corpus: Any, first: int, last: int, *, bone_map: object = None,
+                   options: ReadingOptions = ReadingOptions(), phase: str | None = None,
+                   scene: bpy.types.Scene | None = None) -> FileReport:
+    """Adds what the rig does in the frames first to last to a corpus opened for writing, in one transaction.
+
+    phase: the frames are this one phase; None finds the phases. Without a stature in the options the rig's own height
+    is the person's. The same motion again changes nothing. ValueError and RuntimeError in one sentence.
+    """
+    core = native.core()
+    clip = captured_clip(rig, first, last, bone_map=bone_map, scene=scene)
+    if options.stature is None:
+        options = replace(options, stature=float(read_rig(rig, bone_map).height))
+    data = np.asarray(clip.positions).astype("<f8").tobytes()
+    digest = hashlib.sha256(data).hexdigest()
+    settings = settings_of(options, [phase] if phase else [])
+    name, origin = f"{_name_of(rig)}, frames {first} to {last}", f"{_name_of(rig)}#{digest[:8]}"
+    subject = core.Subject(options.stature, sex=options.sex, age=options.age, mass=options.mass)
+    if phase:
+        reaches, rejections = [core.cut_reach(clip, 0, last - first, subject, phase, f"{origin}:0-{last - first}")], []
+    else:
+        found = core.find_reaches(clip, subject, origin=origin)
+        reaches, rejections = list(found.reaches), [(left.what, left.reason) for left in found.rejections]
+    if options.backwards:
+        reaches += [reach.reversed() for reach in reaches]
+    note = f"captured in Blender, {clip.rate:g} Hz"
+    stored = corpus.add_source(name, f"sha256:{digest}", len(data), reaches, rejections, note=note, settings=settings,
+                               mirror=options.mirror)
+    if stored is None:
+        return FileReport(name, "known")
+    return FileReport(name, "imported", stored.motions, tuple(reach.phase for reach in reaches), note,
+                      tuple(rejections))
+
+
+def _name_of(rig: bpy.types.Object) -> str:
+    action = rig.animation_data.action if rig.animation_data else None
+    file = bpy.path.basename(bpy.data.filepath) or "unsaved"
+    return f"{file}/{rig.name}/{action.name if action else 'no Action'}"
