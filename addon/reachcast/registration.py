@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import bpy
 
-from . import corpora, panels, panels_rig, path_editing, properties
-from .operators import (add_mannequin, bone_maps, edit_hand_path, predict_family, predict_motion, predict_targets,
-                        predict_variants)
-from .scene import map_editing
+from . import corpora, corpus_settings, panels, panels_corpus, panels_rig, path_editing, properties
+from .operators import (add_mannequin, bone_maps, corpus_motions, edit_hand_path, import_motions, predict_family,
+                        predict_motion, predict_targets, predict_variants)
+from .scene import map_editing, target_cloud
 
 CLASSES: tuple[type, ...] = (
     map_editing.SegmentBone,
     properties.ReachcastSettings,
+    corpus_settings.ListedMotion,
+    corpus_settings.MotionListing,
     *bone_maps.CLASSES,
     predict_motion.REACHCAST_OT_predict_motion,
     predict_variants.REACHCAST_OT_predict_variants,
@@ -22,6 +24,12 @@ CLASSES: tuple[type, ...] = (
     edit_hand_path.REACHCAST_OT_follow_targets,
     edit_hand_path.REACHCAST_OT_finish_hand_path,
     add_mannequin.REACHCAST_OT_add_mannequin,
+    corpus_motions.REACHCAST_OT_list_motions,
+    corpus_motions.REACHCAST_OT_play_motion,
+    corpus_motions.REACHCAST_OT_forget_motion,
+    import_motions.REACHCAST_OT_import_motions,
+    import_motions.REACHCAST_OT_capture_motion,
+    panels_corpus.REACHCAST_UL_motions,
     panels.REACHCAST_PT_lift,
     panels.REACHCAST_PT_subject,
     panels_rig.REACHCAST_PT_control_rig,
@@ -30,6 +38,7 @@ CLASSES: tuple[type, ...] = (
     panels.REACHCAST_PT_hand_path,
     panels.REACHCAST_PT_variants,
     panels.REACHCAST_PT_others,
+    panels_corpus.REACHCAST_PT_corpus,
     panels.REACHCAST_PT_result,
 )
 
@@ -39,6 +48,7 @@ def register() -> None:
         bpy.utils.register_class(cls)
     bpy.types.Scene.reachcast = bpy.props.PointerProperty(type=properties.ReachcastSettings)
     bpy.types.WindowManager.reachcast_problem = properties.PROBLEM
+    bpy.types.WindowManager.reachcast_motions = bpy.props.PointerProperty(type=corpus_settings.MotionListing)
     bpy.types.Object.reachcast_hands, bpy.types.Object.reachcast_feet = properties.HANDS, properties.FEET
     bpy.types.Object.reachcast_bones = bpy.props.CollectionProperty(type=map_editing.SegmentBone)
     bpy.types.Object.reachcast_map = bpy.props.StringProperty(name="Bone Map", options={"HIDDEN"})
@@ -47,10 +57,11 @@ def register() -> None:
 
 def unregister() -> None:
     path_editing.forget()
+    target_cloud.show(False)
     bpy.types.VIEW3D_MT_armature_add.remove(add_mannequin.draw_menu_entry)
     del bpy.types.Object.reachcast_map, bpy.types.Object.reachcast_bones
     del bpy.types.Object.reachcast_hands, bpy.types.Object.reachcast_feet
-    del bpy.types.WindowManager.reachcast_problem
+    del bpy.types.WindowManager.reachcast_motions, bpy.types.WindowManager.reachcast_problem
     del bpy.types.Scene.reachcast
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -15,6 +15,7 @@ PYBIND11_MODULE(reachcast_core, m) {
   bind_hand_path(m);
   bind_variation(m);
   bind_mocap(m);
+  bind_reaches(m);
   bind_corpus(m);
   bind_task(m);
   bind_predict(m);

@@ -10,6 +10,7 @@ void bind_curves(pybind11::module_& m);
 void bind_hand_path(pybind11::module_& m);
 void bind_variation(pybind11::module_& m);
 void bind_mocap(pybind11::module_& m);
+void bind_reaches(pybind11::module_& m);
 void bind_corpus(pybind11::module_& m);
 void bind_task(pybind11::module_& m);
 void bind_predict(pybind11::module_& m);

@@ -70,11 +70,11 @@ def prepare(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: object = 
         refuse_removed(item, what)
     skeleton = read_rig(rig, bone_map, layer)
     lift = read_lift(skeleton, shelf, home, box, layer, handles)
-    _refuse_owners(rig, skeleton, box, layer)
+    refuse_owners(rig, skeleton, box, layer)
     subject = _subject(core, skeleton, stature, sex, age, mass)
     surfaces = read_obstacles(skeleton, [item for item in obstacles if item not in {rig, box}], layer)
     try:
-        opened = _corpus(core, corpus)
+        opened = opened_for(core, corpus)
     except RuntimeError as error:  # what the native module says of a damaged or busy file, in one sentence
         raise ValueError(str(error)) from error
     return Prepared(skeleton, lift, subject, opened,
@@ -93,7 +93,7 @@ def solve(prepared: Prepared, **options: object) -> Solved:
                   prepared.corpus.meta["kind"] or "recorded")
 
 
-def _refuse_owners(rig: bpy.types.Object, skeleton: Skeleton, box: bpy.types.Object | None,
+def refuse_owners(rig: bpy.types.Object, skeleton: Skeleton, box: bpy.types.Object | None,
                    layer: bpy.types.ViewLayer) -> None:
     """ValueError when an Action on the rig or the box cannot be written or would not be all that moves it."""
     keyed = frozenset(plan_of(rig).bones if is_control_rig(skeleton) else
@@ -106,7 +106,8 @@ def _refuse_owners(rig: bpy.types.Object, skeleton: Skeleton, box: bpy.types.Obj
         refuse_held_box(box, layer)
 
 
-def _corpus(core: ModuleType, corpus: object) -> object:
+def opened_for(core: ModuleType, corpus: object) -> object:
+    """A corpus that is given as a path or opened; None is the one that ships. ValueError in one sentence."""
     if corpus is None or corpus == "":
         corpus = default_corpus()
         if corpus is None:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "cells.hpp"
 #include "reachcast/conventions.hpp"
 #include "text_scanner.hpp"
 
@@ -12,24 +13,13 @@ namespace {
 
 constexpr std::size_t kMostCells = 300'000'000;
 
-std::string_view trimmed(std::string_view cell) {
-  const auto is_blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
-  while (!cell.empty() && is_blank(cell.front())) cell.remove_prefix(1);
-  while (!cell.empty() && is_blank(cell.back())) cell.remove_suffix(1);
-  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
-  return cell;
-}
-
-/// Calls use(column, cell) for each cell of a line; returns how many there were.
+/// Calls use(column, cell) for each cell of a line, without its quotes; returns how many there were.
 template <typename Use>
 std::size_t split(std::string_view line, Use use) {
-  std::size_t column = 0;
-  for (std::size_t begin = 0; begin <= line.size(); ++column) {
-    const std::size_t comma = std::min(line.find(',', begin), line.size());
-    use(column, trimmed(line.substr(begin, comma - begin)));
-    begin = comma + 1;
-  }
-  return column;
+  return split_cells(line, ',', [&](std::size_t column, std::string_view cell) {
+    const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+    use(column, quoted ? cell.substr(1, cell.size() - 2) : cell);
+  });
 }
 
 void read_header(TextScanner& scanner, CsvTable& table) {

@@ -17,7 +17,7 @@ struct CsvTable {
   [[nodiscard]] std::optional<std::size_t> find(std::string_view name) const;
 };
 
-/// Blank lines are passed over; cells may be quoted but not contain commas or line ends. Throws std::invalid_argument.
+/// Blank lines are passed over; cells may be quoted but not contain line ends. Throws std::invalid_argument.
 [[nodiscard]] CsvTable read_csv_table(std::string_view text, const std::string& source);
 
 }  // namespace reachcast

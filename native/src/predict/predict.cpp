@@ -208,10 +208,11 @@ double seconds_of(Phase phase, const Blend& blend, const PredictOptions& options
   return given_seconds(phase, options).value_or(blend.whole.duration_s);
 }
 
-/// Raising the path over an edge is a courtesy: a path that can only be held as it was learned stays as it was.
+/// Raising the path over an edge is a courtesy: a path that can only be held as it was learned stays as it was, and so
+/// does a single motion, which knew its own edges.
 void perform_freely(const Acting& acting, const Subject& subject, const Task& task, const Body& body,
                     const PredictOptions& options, Motion& motion) {
-  for (const bool raised : {true, false}) {
+  for (const bool raised : {!options.motion.has_value(), false}) {
     Performance performance(motion.plan, acting.blends, acting.ways, task, body, body_mass(subject),
                             options.frame_rate);
     if (raised) performance.raise_over_edges();

@@ -74,7 +74,10 @@ TEST(Predict, AStoredMotionAloneIsWhatACorpusOfItGives) {
   for (std::size_t i = 0; i < codes.size(); ++i) {
     Corpus one = Corpus::create(folder / ("one" + std::to_string(i)));
     one.add(std::span(codes).subspan(i, 1));
-    const Motion expected = predict(one, subject(1.75), t, body, options(24.0, 1));
+    PredictOptions nearest = options(24.0, 1);  // with an obstacle, however far, no path is raised over edges
+    nearest.obstacles =
+        std::make_shared<const Obstacles>(std::vector<Triangle>{{{{9.0, 9.0, 9.0}, {9.1, 9.0, 9.0}, {9.0, 9.1, 9.0}}}});
+    const Motion expected = predict(one, subject(1.75), t, body, nearest);
     PredictOptions alone = options(24.0, 5);
     alone.motion = ids[i];
     const Motion motion = predict(many, subject(1.75), t, body, alone);

@@ -34,7 +34,7 @@ struct PredictOptions {
   /// From where the hands, or the object in them, come to the target.
   std::optional<Approach> approach{};
   /// Only this stored motion, carried onto this body and task (Faraway 2004, section 3.3: retargeting); no scheme is
-  /// used. It must be of the one phase that is asked for, and cannot be varied.
+  /// used, and no path is raised over edges. It must be of the one phase that is asked for, and cannot be varied.
   std::optional<std::int64_t> motion{};
   /// Another motion than the mean.
   std::optional<Variation> variation{};

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The list of motions that the panel shows. On the WindowManager: it is neither saved nor undone."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from .corpora import default_corpus
+from .scene import target_cloud
+
+MOST_LISTED = 2000
+PHASES = (("ALL", "All", "Motions of every phase"), ("reach", "Reach", "Empty hands to the box"),
+          ("transfer", "Transfer", "With the box, from home to the shelf"),
+          ("return", "Return", "Empty hands back to the sides"),
+          ("retrieve", "Retrieve", "With the box, from the shelf home"))
+
+
+class ListedMotion(bpy.types.PropertyGroup):
+    """A row. Its name is what the list is searched by."""
+
+    motion: bpy.props.IntProperty()
+    words: bpy.props.StringProperty()
+
+
+def _show_or_hide(listing: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    target_cloud.show(listing.show_targets, context)
+
+
+class MotionListing(bpy.types.PropertyGroup):
+    rows: bpy.props.CollectionProperty(type=ListedMotion)
+    active: bpy.props.IntProperty(name="Motion", description="The motion that Play and Forget mean")
+    total: bpy.props.IntProperty()
+    source: bpy.props.StringProperty()
+    phase: bpy.props.EnumProperty(name="Phase", items=PHASES, description="Which motions are listed and drawn")
+    show_targets: bpy.props.BoolProperty(
+        name="Show Targets", update=_show_or_hide,
+        description="Draw where the hands of the corpus' motions were on the box, around the rig: what lies far from "
+                    "all points is outside the data")
+
+
+def corpus_path(settings: bpy.types.PropertyGroup) -> str:
+    """The file that the panel names, or the one that ships."""
+    return bpy.path.abspath(settings.corpus) if settings.corpus else str(default_corpus() or "")
+
+
+def fill(listing: MotionListing, corpus: Any) -> None:
+    """Lists the motions of the chosen phase, the first MOST_LISTED of them."""
+    motions = [motion for motion in corpus.motions() if listing.phase in ("ALL", motion.phase)]
+    listing.rows.clear()
+    listing.total, listing.source, listing.active = len(motions), str(corpus.path), 0
+    for motion in motions[:MOST_LISTED]:
+        row = listing.rows.add()
+        row.motion = motion.id
+        origin = Path(motion.origin).name + (" (mirror image)" if motion.mirrored else "")
+        subject = motion.subject
+        sex = {"female": "f", "male": "m"}.get(subject.sex, "")
+        row.name = f"{motion.id} {motion.phase} {origin}"
+        row.words = (f"{motion.phase}, {sex} {subject.stature:.2f} m, to "
+                     f"{', '.join(f'{value:.2f}' for value in motion.target)}, {motion.duration:.1f} s, {origin}")

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Points drawn in the 3D view where a corpus has targets. Nothing is added to the scene."""
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..rigs.rotations import Array
+
+_COLOUR = (1.0, 0.55, 0.1, 0.9)
+_SIZE_PX = 5.0
+_handle: Any = None
+_points: Array = np.zeros((0, 3))
+
+
+def set_points(points: Array) -> None:
+    """(N, 3) world. What is drawn while the points are shown."""
+    global _points
+    _points = np.asarray(points, dtype=np.float32)
+
+
+def is_shown() -> bool:
+    return _handle is not None
+
+
+def show(wanted: bool, context: bpy.types.Context | None = None) -> None:
+    """Begins or ends the drawing. Without windows there is nothing to draw in."""
+    global _handle
+    if wanted and _handle is None and not bpy.app.background:
+        _handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
+    elif not wanted and _handle is not None:
+        bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
+        _handle = None
+    for area in context.screen.areas if context and context.screen else ():
+        if area.type == "VIEW_3D":
+            area.tag_redraw()
+
+
+def _draw() -> None:
+    import gpu
+    from gpu_extras.batch import batch_for_shader
+
+    if not len(_points):
+        return
+    # Blender 4.0 named the built-in shaders anew.
+    shader = gpu.shader.from_builtin("UNIFORM_COLOR" if bpy.app.version >= (4, 0) else "3D_UNIFORM_COLOR")
+    batch = batch_for_shader(shader, "POINTS", {"pos": [tuple(map(float, point)) for point in _points]})
+    gpu.state.point_size_set(_SIZE_PX)
+    gpu.state.blend_set("ALPHA")
+    shader.bind()
+    shader.uniform_float("color", _COLOUR)
+    batch.draw(shader)
+    gpu.state.blend_set("NONE")
+    gpu.state.point_size_set(1.0)
