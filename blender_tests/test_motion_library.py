@@ -10,7 +10,9 @@ import bpy
 import numpy as np
 from reachcast import native
 from reachcast.corpora import default_corpus
+from reachcast.reachcast_corpus.exporting import export_motion
 from reachcast.reachcast_corpus.importing import open_or_create
+from reachcast.rigs.joints import INDEX, JOINTS
 from reachcast.scene.capture import capture_motion, captured_clip
 from reachcast.scene.measure import sample
 from reachcast.scene.motion_library import forget_motions, play_motion, target_points
@@ -22,6 +24,8 @@ PLACED_M = 1e-4
 #: Metres, mean over joints: a captured motion that is played again on the rig it came from. Splines of eight
 #: coefficients cost millimetres; the corpus knows no turning of the box.
 AGAIN_M = 0.03
+#: Metres, any joint: single precision and the exporters' own sampling.
+CAME_BACK_M, LAST_BONES_M = 0.002, 0.1
 
 
 class MotionLibrary(unittest.TestCase):
@@ -103,6 +107,62 @@ class MotionLibrary(unittest.TestCase):
     def test_forgetting_counts(self) -> None:
         path = self.own_corpus(4)
         self.assertEqual(forget_motions(path, [2, 77]), 1)
+
+    def test_recordings_are_imported_from_the_panel(self) -> None:
+        folder = self.folder / "recordings"
+        folder.mkdir()
+        chosen = [motion for motion in self.shipped.motions()
+                  if motion.phase == "transfer" and motion.duration > 0.8 and not motion.mirrored][:3]
+        names = [export_motion(self.core, self.shipped, motion, folder, "bvh").name for motion in chosen]
+        (folder / "broken.bvh").write_text("HIERARCHY")
+        settings = bpy.context.scene.reachcast
+        settings.corpus = str(self.folder / "new.sqlite")
+        table = self.folder / "labels.csv"
+        table.write_text("file,phase,start_s,end_s\n" + "".join(
+            f"{name},transfer,0,{motion.duration - 0.05:.2f}\n" for name, motion in zip(names, chosen)))
+        bpy.ops.reachcast.import_motions(filepath=str(folder), labels=str(table))
+        listing = bpy.context.window_manager.reachcast_motions
+        self.assertEqual(listing.total, 6)  # mirror images included
+        report = bpy.data.texts["Reachcast Import"].as_string()
+        self.assertTrue(all(name in report for name in [*names, "broken.bvh"]), report)
+        self.assertIn("the whole file", report)
+        before = Path(settings.corpus).read_bytes()
+        bpy.ops.reachcast.import_motions(filepath=str(folder), labels=str(table))
+        self.assertEqual(Path(settings.corpus).read_bytes(), before)
+        with self.assertRaisesRegex(RuntimeError, "holds no recording"):
+            (self.folder / "empty").mkdir()
+            bpy.ops.reachcast.import_motions(filepath=str(self.folder / "empty"))
+
+    def test_what_fbx_and_gltf_keep_is_captured_alike(self) -> None:
+        settings = bpy.context.scene.reachcast
+        settings.rig, motion = self.rig, next(motion for motion in self.shipped.motions()
+                                              if motion.phase == "transfer" and motion.duration > 1.0)
+        result = play_motion(self.rig, motion.id, start_frame=1)
+        scene = bpy.context.scene
+        scene.frame_start, scene.frame_end = 1, result.frames["end"]
+        expected = captured_clip(self.rig, 1, scene.frame_end).positions
+        for item in [item for item in bpy.data.objects if item.type == "MESH"]:
+            bpy.data.objects.remove(item)  # Blender 3.4's glTF importer fails on meshes with Debian's numpy
+        for form, write, read in (
+                ("glb", lambda path: bpy.ops.export_scene.gltf(filepath=path, export_frame_range=True),
+                 lambda path: bpy.ops.import_scene.gltf(filepath=path, bone_heuristic="BLENDER")),
+                ("fbx", lambda path: bpy.ops.export_scene.fbx(filepath=path, bake_anim_simplify_factor=0.0),
+                 lambda path: bpy.ops.import_scene.fbx(filepath=path))):
+            path = str(self.folder / f"lift.{form}")
+            write(path)
+            known = set(bpy.data.objects)
+            read(path)
+            rig = next(item for item in set(bpy.data.objects) - known if item.type == "ARMATURE")
+            offset = int(round(rig.animation_data.action.frame_range[0])) - 1
+            bpy.context.view_layer.update()
+            came = captured_clip(rig, 1 + offset, scene.frame_end + offset).positions
+            apart = np.linalg.norm(came - expected, axis=2)
+            # Neither format keeps how long the last bones are: of hands and head, only where they begin comes back.
+            last = [INDEX[joint] for joint in JOINTS
+                    if joint.endswith(("front", "back", "grip")) or joint in ("tragion", "nasion")]
+            self.assertLess(apart[:, last].max(), LAST_BONES_M, form)
+            apart = np.delete(apart, last, axis=1)
+            self.assertLess(apart.max(), CAME_BACK_M, form)
 
     def test_a_captured_motion_comes_back_on_its_rig(self) -> None:
         motion = self.first_of("transfer")

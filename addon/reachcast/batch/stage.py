@@ -62,7 +62,8 @@ class Stage:
             self._refuse_unwritable(worker, load)
         home = self._placed(task.home, skeleton) if task.home is not None else \
             self._standing(load) if isinstance(task.object, str) else None
-        lift = lift_between(skeleton, load.shape, home, self._placed(task.target, skeleton))
+        lift = lift_between(skeleton, load.shape, home, self._placed(task.target, skeleton),
+                            stands=task.home is None)
         subject = native.core().Subject(task.stature or skeleton.height, sex=task.sex, age=task.age, mass=task.mass)
         options: dict[str, object] = {"frame_rate": self.frame_rate, "phases": list(task.phases)}
         if unit.seed is not None:

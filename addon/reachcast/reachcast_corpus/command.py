@@ -25,10 +25,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     try:
         return options.run(core, options)
+    except BrokenPipeError:  # whoever read the output wants no more of it
+        sys.stdout = None
+        return 1
     except (ValueError, RuntimeError, OSError) as why:
         print(f"reachcast_corpus {options.command}: {why}", file=sys.stderr)
-        return 1
-    except BrokenPipeError:
         return 1
 
 
@@ -47,7 +48,7 @@ def _import(core: ModuleType, options: argparse.Namespace) -> int:
             kept, rejected = kept + report.motions, rejected + len(report.rejections)
         print(f"{options.corpus}: {totals['imported']} files imported, {totals['known']} there already, "
               f"{totals['failed']} unreadable; {kept} motions added, {rejected} rejected, {len(corpus)} in all")
-    return 1 if totals["failed"] else 0
+    return 1 if totals["failed"] == len(files) else 0
 
 
 def _list(core: ModuleType, options: argparse.Namespace) -> int:
@@ -122,7 +123,8 @@ def _parser() -> argparse.ArgumentParser:
         added.add_argument("--compact", action="store_true", help="a new corpus takes a fifth of the bytes")
         added.add_argument("--kind", default="recorded", help="what a new corpus says of itself (%(default)s)")
 
-    added = command("import", _import, "Cuts reaches out of recordings; what is left out is listed with its reason.")
+    added = command("import", _import, "Cuts reaches out of recordings; what is left out is listed with its reason. "
+                    "Files that cannot be read are listed, too; only where none can the command fails.")
     added.add_argument("files", metavar="FILE", nargs="+", help=".bvh, .c3d, .trc, .amc or .csv, or folders of them")
     added.add_argument("--labels", metavar="TABLE", help="CSV table of phases; without it they are found")
     writes(added)

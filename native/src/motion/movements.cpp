@@ -86,6 +86,11 @@ FrameRange without_slow_ends(const std::vector<double>& speed, const FrameRange&
   return kept;
 }
 
+bool goes_on(const HandTracks& hands, const FrameRange& before, const FrameRange& after) {
+  const auto travel = [&](const FrameRange& range) { return hands.hold[range.last] - hands.hold[range.first]; };
+  return glm::dot(travel(before), travel(after)) > 0.0;
+}
+
 }  // namespace
 
 Points bridged(Points points, const std::string& what) {
@@ -151,7 +156,8 @@ double seconds_between(const FrameRange& earlier, const FrameRange& later, doubl
 std::vector<FrameRange> ways(const HandTracks& hands, const FrameRange& within, const FindOptions& options) {
   std::vector<FrameRange> joined;
   for (const FrameRange& next : movements(hands, within, options)) {
-    if (!joined.empty() && seconds_between(joined.back(), next, hands.rate_hz) < options.pause_s) {
+    const bool short_stop = !joined.empty() && seconds_between(joined.back(), next, hands.rate_hz) < options.pause_s;
+    if (short_stop && goes_on(hands, joined.back(), next)) {
       joined.back().last = next.last;
     } else {
       joined.push_back(next);

@@ -32,7 +32,8 @@ struct HandTracks {
 [[nodiscard]] std::vector<FrameRange> movements(const HandTracks& hands, const FrameRange& within,
                                                 const FindOptions& options);
 
-/// The same with those that follow each other after less than options.pause_s taken together.
+/// The same, those taken together that follow each other after less than options.pause_s without turning back (by 90
+/// degrees or more).
 [[nodiscard]] std::vector<FrameRange> ways(const HandTracks& hands, const FrameRange& within,
                                            const FindOptions& options);
 

@@ -9,9 +9,8 @@ namespace {
 
 using enum Joint;
 
-constexpr double kUpright = 0.87;       // cosine of 30 degrees: the trunk from the vertical
-constexpr double kHanging = 0.82;       // cosine of 35 degrees: the arms from the vertical
-constexpr double kSameDirection = 0.5;  // cosine of 60 degrees: a hesitation, no turn
+constexpr double kUpright = 0.87;  // cosine of 30 degrees: the trunk from the vertical
+constexpr double kHanging = 0.82;  // cosine of 35 degrees: the arms from the vertical
 
 double rise(const Vec3& from, const Vec3& to) {
   return (to.z - from.z) / glm::distance(from, to);
@@ -23,29 +22,6 @@ bool at_rest(const HandTracks& hands, const Clip& clip, std::size_t frame) {
   const Vec3 hips = 0.5 * (at(left_hip) + at(right_hip)), shoulders = 0.5 * (at(left_shoulder) + at(right_shoulder));
   return rise(hips, shoulders) > kUpright && -rise(at(left_shoulder), hands.grips[0][frame]) > kHanging &&
          -rise(at(right_shoulder), hands.grips[1][frame]) > kHanging;
-}
-
-Vec3 travel(const HandTracks& hands, const FrameRange& range) {
-  return hands.hold[range.last] - hands.hold[range.first];
-}
-
-bool goes_on(const HandTracks& hands, const FrameRange& before, const FrameRange& after) {
-  const Vec3 a = travel(hands, before), b = travel(hands, after);
-  return glm::dot(a, b) > kSameDirection * glm::length(a) * glm::length(b);
-}
-
-/// Movements, those of one direction taken together over hesitations.
-std::vector<FrameRange> strokes(const HandTracks& hands, const FindOptions& options) {
-  std::vector<FrameRange> joined;
-  for (const FrameRange& next : movements(hands, {0, hands.frames() - 1}, options)) {
-    const bool short_stop = !joined.empty() && seconds_between(joined.back(), next, hands.rate_hz) < options.pause_s;
-    if (short_stop && goes_on(hands, joined.back(), next)) {
-      joined.back().last = next.last;
-    } else {
-      joined.push_back(next);
-    }
-  }
-  return joined;
 }
 
 /// What the hands do, from one stroke to the next.
@@ -104,17 +80,9 @@ void add_events(const std::vector<Way>& ways, Plan& plan) {
 Plan plan_by_hands(const HandTracks& hands, const Clip& clip, const FindOptions& options) {
   Plan plan;
   HandState state(hands, clip, options);
-  for (const FrameRange& stroke : strokes(hands, options)) {
+  for (const FrameRange& stroke : ways(hands, {0, hands.frames() - 1}, options)) {
     const std::optional<Phase> phase = state.next(stroke);
-    Way* const before = plan.ways.empty() ? nullptr : &plan.ways.back();
-    const bool joins = before && before->phase && phase && is_loaded(*phase) == is_loaded(*before->phase) &&
-                       (is_loaded(*phase) || phase == before->phase) &&
-                       seconds_between(before->frames, stroke, hands.rate_hz) < options.pause_s;
-    if (joins) {
-      before->frames.last = stroke.last;
-    } else {
-      plan.ways.push_back({stroke, phase, "the hands hang at the sides before and after"});
-    }
+    plan.ways.push_back({stroke, phase, "the hands hang at the sides before and after"});
   }
   if (plan.ways.empty()) plan.nothing = "the hands stand still throughout";
   add_events(plan.ways, plan);

@@ -81,6 +81,13 @@ TEST(Tracking, FrozenPointsAreFound) {
   expect_fault(faults[0], "LKNE", 100, 149, "frozen for 0.5 s");
 }
 
+TEST(Tracking, FeetThatArePinnedToTheFloorAreNoFault) {
+  Clip clip = walking();
+  clip.names[2] = "left_ball";
+  for (std::size_t frame = 100; frame < 150; ++frame) clip.at(frame, 2) = clip.at(100, 2);
+  for (const TrackingFault& fault : check_tracking(clip)) EXPECT_EQ(fault.reason.find("frozen"), std::string::npos);
+}
+
 TEST(Tracking, AStillPersonIsNotFrozen) {
   Clip clip = walking();
   for (std::size_t frame = 1; frame < 300; ++frame) {

@@ -20,7 +20,7 @@ struct TrackingFault {
 struct TrackingLimits {
   double acceleration = 150.0;  ///< m/s^2, > 0: a point that would need more between three frames jumps
   double jump_m = 0.02;         ///< > 0, and by which it must be off besides
-  double frozen_s = 0.2;        ///< > 0: a point exactly in its place for this long while most others move
+  double frozen_s = 0.2;        ///< > 0: a point exactly in its place for this long while most others move; not feet
   double stretch = 0.15;        ///< > 0, of a segment's median length; canonical clips only
 };
 

@@ -26,7 +26,7 @@ namespace reachcast {
 struct FindOptions {
   double still_part = 0.10;       ///< 0 to 1, of a movement's peak speed: below it has not begun, or is over
   double still_speed = 0.05;      ///< m/s, > 0: hands slower than this stand still, whatever the peak
-  double pause_s = 0.3;           ///< >= 0: a stop shorter than this does not part a way in two
+  double pause_s = 0.3;           ///< >= 0: a shorter stop does not part a way in two, unless the hands turn back
   double least_s = 0.4;           ///< >= 0: a phase lasts at least this long
   double least_travel_m = 0.15;   ///< > 0: and its hold point ends at least this far from where it began
   double fastest_end = 0.75;      ///< 0 to 1, of the peak speed: hands faster than this when a step cuts a phase off
