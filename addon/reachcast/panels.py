@@ -10,6 +10,7 @@ from . import path_editing
 from .corpora import default_corpus
 from .operators.edit_hand_path import (REACHCAST_OT_edit_hand_path, REACHCAST_OT_finish_hand_path,
                                        REACHCAST_OT_follow_targets)
+from .operators.pose_ghosts import REACHCAST_OT_pose_ghosts
 from .operators.predict_family import REACHCAST_OT_choose_percentile, REACHCAST_OT_predict_family
 from .operators.predict_motion import REACHCAST_OT_predict_motion
 from .operators.predict_targets import REACHCAST_OT_predict_targets
@@ -163,6 +164,7 @@ class REACHCAST_PT_result(_Tab, bpy.types.Panel):
         else:
             _lines(self.layout, context, f"Within the {kind} data.", "CHECKMARK")
         _lines(self.layout, context, f"From motions {action['reachcast_neighbours']}", "COMMUNITY")
+        self.layout.operator(REACHCAST_OT_pose_ghosts.bl_idname, icon="GHOST_ENABLED")
         if action["reachcast_corrections"]:
             _lines(self.layout, context, f"Corrected: {action['reachcast_corrections']}", "INFO")
 
