@@ -12,10 +12,15 @@ import numpy as np
 from .. import native
 from ..reachcast_corpus.importing import FileReport
 from ..reachcast_corpus.recordings import ReadingOptions, settings_of
-from ..rigs.joints import JOINTS
+from ..rigs.joints import INDEX, JOINTS, SIDES
+from ..rigs.rotations import Array
 from .measure import sample
 from .read_rig import read_rig
 from .transforms import layer_of
+
+#: From wrist to grip as a part of the forearm: the most that is taken for a hand, and what is taken instead, which is
+#: what the readers of recordings take for a wrist alone.
+_LONGEST_HAND, _HAND = 0.6, 0.39
 
 
 def captured_clip(rig: bpy.types.Object, first: int, last: int, *, bone_map: object = None,
@@ -26,9 +31,24 @@ def captured_clip(rig: bpy.types.Object, first: int, last: int, *, bone_map: obj
     if last - first < 3:
         raise ValueError(f"Frames {first} to {last} are {max(0, last - first + 1)}; a recording has at least 4")
     skeleton = read_rig(rig, bone_map, layer_of(scene))
-    joints = sample(rig, skeleton, range(first, last + 1), scene=scene).joints
+    joints = with_human_hands(sample(rig, skeleton, range(first, last + 1), scene=scene).joints)
     return native.core().Clip(list(JOINTS), np.ascontiguousarray(joints), scene.render.fps / scene.render.fps_base,
                               _name_of(rig))
+
+
+def with_human_hands(joints: Array) -> Array:
+    """Grips no farther from the wrists than a person's. glTF and FBX do not keep how long the last bone of a chain is:
+    a hand without fingers comes back as long as its forearm."""
+    joints = joints.copy()
+    for _, word in SIDES:
+        elbow, wrist, grip = (joints[:, INDEX[f"{word}_{name}"]] for name in ("elbow", "wrist", "grip"))
+        forearm = np.linalg.norm(wrist - elbow, axis=1, keepdims=True)
+        reach = np.linalg.norm(grip - wrist, axis=1, keepdims=True)
+        shorter = np.where(reach > _LONGEST_HAND * forearm, _HAND * forearm / reach, 1.0)
+        for name in ("hand_front", "hand_back", "grip"):
+            place = INDEX[f"{word}_{name}"]
+            joints[:, place] = wrist + shorter * (joints[:, place] - wrist)
+    return joints
 
 
 def capture_motion(rig: bpy.types.Object, corpus: Any, first: int, last: int, *, bone_map: object = None,
