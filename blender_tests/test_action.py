@@ -107,11 +107,11 @@ class Lift(Scene):
     def test_box_properties(self) -> None:
         box = cuboid("Crate", (0.5, 0.3, 0.2))
         box[HANDLE_HEIGHT], box[BOX_MASS], box[GRIP_DISTANCE] = 0.15, 12, 0.52
-        box.modifiers.new("Row", "ARRAY").count = 3  # not counted: hands hold the mesh
+        box.modifiers.new("Row", "ARRAY").count = 3  # along x: counted, as it is seen
         bpy.context.view_layer.update()
         shape = read_box(box)
         np.testing.assert_allclose((shape.width, shape.depth, shape.height, shape.handle_height, shape.mass,
-                                    shape.grip_distance), (0.5, 0.3, 0.2, 0.15, 12.0, 0.52), atol=1e-6)
+                                    shape.grip_distance), (1.5, 0.3, 0.2, 0.15, 12.0, 0.52), atol=1e-6)
 
 
 class Writing(Scene):
@@ -193,9 +193,7 @@ class Refused(Scene):
     def test_boxes(self) -> None:
         self.box.scale = (0.0, 1.0, 1.0)
         self.refused("Box", "scale", "above zero")
-        self.box.scale, self.box.rotation_euler.x = (1.0, 1.0, 1.0), 0.5
-        self.refused("Box", "tilted", "29")
-        self.box.rotation_euler.x, self.box.scale.x = 0.0, 40.0
+        self.box.scale = (40.0, 1.0, 1.0)
         self.refused("Box", "width", "14.4")
         self.box.scale.x, self.box[HANDLE_HEIGHT] = 1.0, 0.9
         self.refused("Box", HANDLE_HEIGHT, "0.9", "0.24")

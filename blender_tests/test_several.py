@@ -91,7 +91,7 @@ class Family(Several):
         segments = len([child for child in self.scene.rig.children if child.type == "MESH"])
         made = len(found.results)
         self.assertEqual(len(bpy.data.armatures) - before["armatures"], made)
-        self.assertEqual(len(bpy.data.objects) - before["objects"], made * (segments + 2))
+        self.assertEqual(len(bpy.data.objects) - before["objects"], made * (segments + 3))  # rig, box, hold
         self.assertEqual(len(bpy.data.meshes) - before["meshes"], made * segments)
 
     def test_nobody_is_an_error_that_names_one(self) -> None:

@@ -34,6 +34,12 @@ class REACHCAST_PT_lift(_Tab, bpy.types.Panel):
         for words, name in (("Rig", "rig"), ("does", "errand"), ("with", "box"), ("from", "home"), ("to", "shelf"),
                             ("coming", "approach"), ("past", "obstacles"), ("as in", "corpus")):
             _sentence_part(column, settings, words, name)
+        if settings.box:
+            split = column.split(factor=_LABELS)
+            split.label(text="held at")
+            row = split.row(align=True)
+            row.prop(settings, "handle_left", text="")
+            row.prop(settings, "handle_right", text="")
         if not settings.corpus and default_corpus():
             _words(column, "", "simulated, ships with it")
         blocking = [need for need in needs(settings) if need.reason]

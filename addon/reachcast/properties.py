@@ -10,6 +10,7 @@ import bpy
 from . import native
 from .corpora import default_corpus
 from .scene.control_rig import CHOICES
+from .scene.movers import HOLD
 from .scene.read_rig import recognise
 
 #: The sentence of the last prediction that failed. On the WindowManager: neither saved nor undone.
@@ -25,7 +26,7 @@ def _is_armature(_settings: bpy.types.PropertyGroup, item: bpy.types.Object) -> 
 
 
 def _is_place(_settings: bpy.types.PropertyGroup, item: bpy.types.Object) -> bool:
-    return item.type == "EMPTY"
+    return item.type == "EMPTY" and HOLD not in item
 
 
 def _is_mesh(_settings: bpy.types.PropertyGroup, item: bpy.types.Object) -> bool:
@@ -53,8 +54,15 @@ class ReachcastSettings(bpy.types.PropertyGroup):
                ("THERE_AND_BACK", "There and back", "Reach, lift and return, then fetch it again")))
     box: bpy.props.PointerProperty(
         name="Box", type=bpy.types.Object, poll=_is_mesh,
-        description="The mesh that is carried; its hands hold it left and right, along its own x. "
+        description="The mesh that is carried; it follows the hands while they hold it, left and right along its own x. "
                     "Without one the rig moves an average box that is not shown")
+    handle_left: bpy.props.PointerProperty(
+        name="Handle", type=bpy.types.Object, poll=_is_place,
+        description="An Empty where one hand holds the box, best parented to it. Without two of them the hands hold the "
+                    "middles of its sides")
+    handle_right: bpy.props.PointerProperty(
+        name="Other Handle", type=bpy.types.Object, poll=_is_place,
+        description="An Empty where the other hand holds the box, as high as the first")
     home: bpy.props.PointerProperty(
         name="Home", type=bpy.types.Object, poll=_is_place,
         description="The Empty where the middle of the box's base starts. "

@@ -52,6 +52,8 @@ def task_of(context: bpy.types.Context) -> dict[str, Any]:
             "box": settings.box, "stature": settings.stature or None, "sex": core_sex(settings.sex),
             "bone_map": settings.bone_map or None, "phases": ERRANDS[settings.errand],
             "obstacles": meshes_in(settings.obstacles), "scene": context.scene}
+    if settings.handle_left and settings.handle_right:
+        task["handles"] = (settings.handle_left, settings.handle_right)
     if settings.approach != "FREE":
         task["approach"] = settings.approach.lower()
     return task

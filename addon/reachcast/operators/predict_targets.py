@@ -4,13 +4,16 @@ from __future__ import annotations
 import bpy
 
 from ..properties import missing
+from ..scene.movers import HOLD
 from ..scene.several_targets import predict_to_targets
 from .predict_motion import problem_of, task_of
 
 
 def _shelves(context: bpy.types.Context) -> list[bpy.types.Object]:
+    settings = context.scene.reachcast
     return sorted((item for item in context.selected_objects
-                   if item.type == "EMPTY" and item != context.scene.reachcast.home), key=lambda item: item.name)
+                   if item.type == "EMPTY" and HOLD not in item
+                   and item not in {settings.home, settings.handle_left, settings.handle_right}), key=lambda item: item.name)
 
 
 class REACHCAST_OT_predict_targets(bpy.types.Operator):

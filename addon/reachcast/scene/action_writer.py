@@ -17,18 +17,21 @@ from ..rigs.rotations import Array
 
 #: Keys on every frame: straight between them; handles for who makes them curved later.
 _KEY_STYLE = (("interpolation", "LINEAR"), ("handle_left_type", "AUTO_CLAMPED"), ("handle_right_type", "AUTO_CLAMPED"))
+_STEP_STYLE = (("interpolation", "CONSTANT"), *_KEY_STYLE[1:])
 
 
 @dataclass(frozen=True)
 class Channel:
     """One animated property. `values` is (frames, width); keys stand at `first_frame` + 0, 1, 2, ...
 
-    A column that never changes gets its first key only.
+    A column that never changes gets its first key only. steps: with these the keys stand at `first_frame` + each of
+    them, and every key holds until the next.
     """
 
     data_path: str
     values: Array
     group: str
+    steps: tuple[int, ...] | None = None
 
 
 def write_action(owner: bpy.types.Object, name: str, channels: Sequence[Channel], first_frame: int) -> bpy.types.Action:
@@ -42,7 +45,7 @@ def write_action(owner: bpy.types.Object, name: str, channels: Sequence[Channel]
         for index, values in _columns(channel):
             curve = curves.new(channel.data_path, index=index)
             curve.group = group
-            _fill(curve, first_frame, values)
+            _fill(curve, first_frame, values, channel.steps)
     _assign(owner, action)
     return action
 
@@ -67,10 +70,10 @@ def rewrite_action(action: bpy.types.Action, channels: Sequence[Channel], first_
                 raise ValueError(f"Action '{action.name}' has lost its channel {channel.data_path}[{index}]; "
                                  f"predict the motion again")
             if len(curve.keyframe_points) == len(values):
-                _place(curve, first_frame, values)
+                _place(curve, first_frame, values, channel.steps)
             else:
                 curve.keyframe_points.clear()
-                _fill(curve, first_frame, values)
+                _fill(curve, first_frame, values, channel.steps)
     action.update_tag()
 
 
@@ -102,19 +105,19 @@ def curves_of(action: bpy.types.Action) -> Iterator[bpy.types.FCurve]:
     return (curve for bag in bags for curve in bag.fcurves if not curve.mute)
 
 
-def _fill(curve: bpy.types.FCurve, first_frame: int, values: Array) -> None:
+def _fill(curve: bpy.types.FCurve, first_frame: int, values: Array, steps: tuple[int, ...] | None) -> None:
     points = curve.keyframe_points
     points.add(len(values))
     first = points[0]
-    for attribute, identifier in _KEY_STYLE:
+    for attribute, identifier in _KEY_STYLE if steps is None else _STEP_STYLE:
         if getattr(first, attribute) != identifier:  # new keys have the style of the user's preferences
             points.foreach_set(attribute, _enum_values(attribute, identifier, len(values)))
-    _place(curve, first_frame, values)
+    _place(curve, first_frame, values, steps)
 
 
-def _place(curve: bpy.types.FCurve, first_frame: int, values: Array) -> None:
+def _place(curve: bpy.types.FCurve, first_frame: int, values: Array, steps: tuple[int, ...] | None) -> None:
     places = np.empty((len(values), 2), dtype=np.float32)
-    places[:, 0] = _frames(first_frame, len(values))
+    places[:, 0] = _frames(first_frame, len(values)) if steps is None else first_frame + np.array(steps[:len(values)])
     places[:, 1] = values
     curve.keyframe_points.foreach_set("co", places.ravel())
     curve.update()

@@ -6,10 +6,10 @@ import itertools
 
 import bpy
 
-from .predict_action import PredictionResult, box_origins, box_turns, describe
+from .carry import forget_carriers, write_box_action
+from .predict_action import PredictionResult, describe
 from .prepare import Prepared, Solved
-from .transforms import above_matrix
-from .write_motion import write_box_action, write_rig_action
+from .write_motion import write_rig_action
 
 
 def add_ghost(prepared: Prepared, solved: Solved, rig: bpy.types.Object, box: bpy.types.Object | None, what: str,
@@ -37,9 +37,8 @@ def perform_aside(prepared: Prepared, solved: Solved, rig: bpy.types.Object, box
     action = write_rig_action(rig, prepared.skeleton, solved.pose, f"{name or rig.name} {what}", first)
     box_action = None
     if box is not None:
-        carried, lift = _copied(box, collection), prepared.lift
-        box_action = write_box_action(carried, above_matrix(box, layer), box_origins(lift, solved.places) + offset,
-                                      box_turns(lift, solved.places), f"{box.name} {what}", first)
+        carried = _copied(box, collection)
+        box_action = write_box_action(prepared, solved, rig, carried, f"{box.name} {what}", first, layer, offset)
     return describe(solved, rig.name, action, box_action, first)
 
 
@@ -47,6 +46,7 @@ def _copied(item: bpy.types.Object, collection: bpy.types.Collection) -> bpy.typ
     copy = item.copy()
     copy.name = _free_name(f"{item.name} ghost")
     collection.objects.link(copy)
+    forget_carriers(copy)
     return copy
 
 

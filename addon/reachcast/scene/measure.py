@@ -210,14 +210,16 @@ def _box_errors(samples: Samples, events: dict[str, int], shape: BoxShape | None
     if samples.box_origins is None or samples.box_axes is None or shape is None:
         return (float("nan"),) * 3
     grasp, release = samples.frames.index(events["grasp"]), samples.frames.index(events["release"])
-    base = samples.box_origins - turn(samples.box_axes, np.array(shape.origin_offset))
-    ends = [base + turn(samples.box_axes, np.array([sign * 0.5 * shape.grip_distance, 0.0, shape.handle_height]))
+    frames = samples.box_axes @ np.array(shape.turn).T
+    base = samples.box_origins - turn(frames, np.array(shape.origin_offset))
+    ends = [base + turn(frames, np.array([sign * 0.5 * shape.grip_distance, 0.0, shape.handle_height]))
             for sign in (-1.0, 1.0)]
     left, right = (samples.joints[:, INDEX[f"{word}_grip"]] for word in ("left", "right"))
     straight = [np.linalg.norm(left - ends[0], axis=1), np.linalg.norm(right - ends[1], axis=1)]
     crossed = [np.linalg.norm(left - ends[1], axis=1), np.linalg.norm(right - ends[0], axis=1)]
     pair = straight if straight[0][grasp] <= crossed[0][grasp] else crossed
     middle = np.linalg.norm(0.5 * (left + right) - 0.5 * (ends[0] + ends[1]), axis=1)
-    landing = float("nan") if shelf is None else float(np.linalg.norm(base[release] - shelf))
+    put_down = base[release] + frames[release] @ np.array([*shape.middle, 0.0])
+    landing = float("nan") if shelf is None else float(np.linalg.norm(put_down - shelf))
     return (landing, float(max(middle[grasp], middle[release])),
             float(max(values[grasp:release + 1].max() for values in pair)))

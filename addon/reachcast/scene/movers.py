@@ -11,6 +11,8 @@ from .action_writer import curves_of
 
 #: Whether a property that an F-curve animates is one of those that matter, by its data path.
 Touches = Callable[[str], bool]
+#: Custom property of the Empties that go with both hands of a rig; see carry.py.
+HOLD = "reachcast_hold"
 _CHANNELS = ("location", "rotation", "scale")
 
 
@@ -20,6 +22,11 @@ class Mover:
 
     what: str
     remedy: str
+
+
+def is_carrier(constraint: bpy.types.Constraint) -> bool:
+    """Whether it puts a box into a rig's hands. A new Action on the box keys its influence."""
+    return constraint.type == "CHILD_OF" and constraint.target is not None and HOLD in constraint.target
 
 
 def moves_object(path: str) -> bool:
@@ -57,7 +64,8 @@ def refuse_moved(item: bpy.types.Object, kind: str, other: bpy.types.Object | No
 def movers(item: bpy.types.Object, touches: Touches, own_action: bool = True) -> Iterator[Mover]:
     """All that moves `item` through the properties that `touches` picks, apart from its parents' movements."""
     for constraint in item.constraints:
-        if not constraint.mute:
+        ours = is_carrier(constraint) and (not own_action or constraint.influence == 0.0)
+        if not constraint.mute and not ours:
             yield Mover(f"its constraint '{constraint.name}'", "mute or remove it")
     if item.parent and item.parent_type in {"VERTEX", "VERTEX_3"}:
         yield Mover(f"the vertices of its parent '{item.parent.name}'", "parent it to the object instead")

@@ -19,11 +19,12 @@ from ..rigs.joints import INDEX
 from ..rigs.rotations import Array
 from .action_writer import rewrite_action
 from .path_curve import add_path_curve, read_control, write_control
-from .predict_action import PredictionResult, box_origins, box_turns, describe, write_solved
+from .carry import carried_channels
+from .predict_action import PredictionResult, describe, write_solved
 from .prepare import Prepared, Solved, prepare, solve
 from .read_task import Lift, place_of
 from .transforms import above_matrix, layer_of
-from .write_motion import box_channels, rig_channels
+from .write_motion import rig_channels
 
 _GRIPS = [INDEX["left_grip"], INDEX["right_grip"]]
 #: A control point that differs by less has not been moved: curves are single precision.
@@ -70,8 +71,7 @@ class PathSession:
         action, box_action = self._action(self.result.action), self._action(self.result.box_action)
         rewrite_action(action, rig_channels(rig, self.prepared.skeleton, solved.pose), self.result.first_frame)
         if box is not None and box_action is not None:
-            rewrite_action(box_action, box_channels(box, self.above, box_origins(lift, solved.places),
-                                                    box_turns(lift, solved.places)), self.result.first_frame)
+            rewrite_action(box_action, carried_channels(box, rig, self.above, lift, solved), self.result.first_frame)
         self.result = describe(solved, self.rig, action, box_action, self.result.first_frame)
         self._keep(action, control)
         self.solves += 1
@@ -116,11 +116,11 @@ class PathSession:
 
     def _lift(self, layer: bpy.types.ViewLayer) -> Lift:
         lift, skeleton = self.prepared.lift, self.prepared.skeleton
-        target, target_yaw = place_of(skeleton, self._object(self.shelf), layer)
+        target, target_yaw = place_of(skeleton, self._object(self.shelf), lift, layer)
         if np.abs(target - lift.target).max() > _MOVED_M or abs(target_yaw - lift.target_yaw) > _MOVED_M:
             lift = replace(lift, target=target, target_yaw=target_yaw)
         if self.home:
-            home, home_yaw = place_of(skeleton, self._object(self.home), layer)
+            home, home_yaw = place_of(skeleton, self._object(self.home), lift, layer)
             if np.abs(home - lift.home).max() > _MOVED_M or abs(home_yaw - lift.home_yaw) > _MOVED_M:
                 lift = replace(lift, home=home, home_yaw=home_yaw)
         return lift

@@ -10,14 +10,12 @@ from types import MappingProxyType
 from typing import Any
 
 import bpy
-import numpy as np
 
 from ..rigs.bone_map import BoneMap
-from ..rigs.rotations import Array
+from .carry import write_box_action
 from .prepare import Prepared, Solved, prepare, solve
-from .read_task import Lift
-from .transforms import above_matrix, layer_of
-from .write_motion import write_box_action, write_rig_action
+from .transforms import layer_of
+from .write_motion import write_rig_action
 
 
 @dataclass(frozen=True)
@@ -65,7 +63,7 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
     rig's own height), age in years, mass in kg. phases: any of "reach" (empty hands to the box), "transfer" (from home
     to the shelf), "return" (hands to the sides) and "retrieve" (back home), in an order that can be performed; the box
     stands where the first loaded phase takes it from. obstacles: mesh objects that the box and the hands keep clear of
-    (option clearance, metres); the rig and the box are none. Objects are taken where they are in the scene's current
+    (option clearance, metres); the rig and the box are none. handles: two objects where the hands hold the box. Objects are taken where they are in the scene's current
     frame, and the motion starts there or at start_frame. Other options go to reachcast_core.predict: approach="above",
     "front" or "side"; variation={"seed": 1} for another motion than the mean; k, scheme, duration. Everything is read
     and checked first: on ValueError nothing has been written.
@@ -81,10 +79,8 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
 def write_solved(prepared: Prepared, solved: Solved, rig: bpy.types.Object, box: bpy.types.Object | None, what: str,
                  first: int, layer: bpy.types.ViewLayer) -> PredictionResult:
     """New Actions on rig and box, named after them and `what`, whose first key stands at frame `first`."""
-    above = above_matrix(box, layer) if box else None
     action = write_rig_action(rig, prepared.skeleton, solved.pose, f"{rig.name} {what}", first)
-    box_action = write_box_action(box, above, box_origins(prepared.lift, solved.places),
-                                  box_turns(prepared.lift, solved.places), f"{box.name} {what}", first) if box else None
+    box_action = write_box_action(prepared, solved, rig, box, f"{box.name} {what}", first, layer) if box else None
     return describe(solved, rig.name, action, box_action, first)
 
 
@@ -103,16 +99,6 @@ def describe(solved: Solved, rig: str, action: bpy.types.Action, box_action: bpy
         solved.corpus_kind)
     _label(action, result)
     return result
-
-
-def box_turns(lift: Lift, places: tuple[Array, Array]) -> Array:
-    """(F, 3, 3) world turns of the box's mesh."""
-    return places[1] * np.array([-1.0, -1.0, 1.0]) if lift.half_turn else places[1]
-
-
-def box_origins(lift: Lift, places: tuple[Array, Array]) -> Array:
-    """(F, 3) world places of the origin of the box's mesh."""
-    return places[0] + box_turns(lift, places) @ np.array(lift.box.origin_offset)
 
 
 def _said(correction: Any) -> str:

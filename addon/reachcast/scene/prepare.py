@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -60,7 +60,7 @@ def prepare(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: object = 
             sex: str | None = None, age: float | None = None, mass: float | None = None,
             bone_map: BoneMap | str | Path | None = None, phases: Iterable[str] = ("transfer",),
             obstacles: Iterable[bpy.types.Object] = (), scene: bpy.types.Scene | None = None,
-            **options: object) -> Prepared:
+            handles: Sequence[bpy.types.Object] | None = None, **options: object) -> Prepared:
     """Reads and checks what `predict_motion` is given, which says what that is. ValueError in one sentence."""
     scene = scene or bpy.context.scene
     core, layer = native.core(), layer_of(scene)
@@ -69,7 +69,7 @@ def prepare(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: object = 
     for item, what in ((rig, "rig"), (shelf, "shelf"), (home, "home"), (box, "box")):
         refuse_removed(item, what)
     skeleton = read_rig(rig, bone_map, layer)
-    lift = read_lift(skeleton, shelf, home, box, layer)
+    lift = read_lift(skeleton, shelf, home, box, layer, handles)
     refuse_owners(rig, skeleton, box, layer)
     subject = _subject(core, skeleton, stature, sex, age, mass)
     surfaces = read_obstacles(skeleton, [item for item in obstacles if item not in {rig, box}], layer)

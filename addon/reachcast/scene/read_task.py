@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import bpy
@@ -15,7 +16,7 @@ from .transforms import MAX_UNEVEN, above_matrix, described, placement
 HANDLE_HEIGHT = "reachcast_handle_height"   #: custom property of a box, metres above its base
 GRIP_DISTANCE = "reachcast_grip_distance"   #: custom property of a box, metres between the centres of the two grips
 BOX_MASS = "reachcast_mass"                 #: custom property of a box, kilograms
-MAX_TILT_DEG = 5.0
+MAX_UNLEVEL_M = 0.01                        #: between the heights of two handles
 DEFAULT_MASS = 5.0
 _DEFAULT_SIZE = (0.35, 0.30, 0.25)
 _HALF_HAND = 0.02                           #: metres from a box's wall to the middle of a hand that holds it
@@ -25,7 +26,8 @@ _MOST_METRES = 3.0                          #: no pair of hands holds a larger b
 
 @dataclass(frozen=True)
 class BoxShape:
-    """A box in metres. The grips are `grip_distance` apart along its own x, `handle_height` above its base."""
+    """A box in metres, in an upright frame with the grips `grip_distance` apart along x, `handle_height` above its base.
+    The frame's origin lies on the base, beneath the middle between the grips."""
 
     width: float
     depth: float
@@ -33,7 +35,9 @@ class BoxShape:
     handle_height: float
     grip_distance: float
     mass: float
-    origin_offset: tuple[float, float, float] = (0.0, 0.0, 0.0)  #: from the centre of the base to the object's origin
+    origin_offset: tuple[float, float, float] = (0.0, 0.0, 0.0)  #: from the frame's origin to the object's
+    middle: tuple[float, float] = (0.0, 0.0)                     #: from the frame's origin to the middle of the base
+    turn: tuple[tuple[float, ...], ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))  #: rows: mesh in the frame
 
 
 @dataclass(frozen=True)
@@ -49,7 +53,8 @@ class Lift:
 
 
 def read_lift(skeleton: Skeleton, shelf: bpy.types.Object, home: bpy.types.Object | None,
-              box: bpy.types.Object | None, layer: bpy.types.ViewLayer | None = None) -> Lift:
+              box: bpy.types.Object | None, layer: bpy.types.ViewLayer | None = None,
+              handles: Sequence[bpy.types.Object] | None = None) -> Lift:
     """The task: the box's base goes from `home` (else from where the box stands, else from the front of the body at
     waist height) to `shelf`, as `layer` (the user's own by default) shows them. ValueError names the object, its value
     and the limit."""
@@ -57,61 +62,109 @@ def read_lift(skeleton: Skeleton, shelf: bpy.types.Object, home: bpy.types.Objec
         raise ValueError(f"The shelf must be an object (an Empty where the box is to end), not {described(shelf)}")
     if home is not None and not isinstance(home, bpy.types.Object):
         raise ValueError(f"The home must be an object (an Empty where the box starts) or None, not {described(home)}")
-    shape = read_box(box, layer) if box is not None else _default_box()
+    shape = read_box(box, layer, handles) if box is not None else _default_box()
     target = placement(shelf, layer)
     target_yaw, _ = _half_turns(_yaw(skeleton, target.rotation))
     if home is not None:
         start = placement(home, layer)
-        place, rotation = start.origin, start.rotation
+        place, rotation = start.origin - start.rotation @ np.array([*shape.middle, 0.0]), start.rotation
     elif box is not None:
         start = placement(box, layer)
-        rotation = start.rotation
+        rotation = start.rotation @ np.array(shape.turn).T
         place = start.origin - rotation @ np.array(shape.origin_offset)
-        if np.linalg.norm(place - target.origin) < LEAST_WAY_M:
+        if np.linalg.norm(place + rotation @ np.array([*shape.middle, 0.0]) - target.origin) < LEAST_WAY_M:
             raise ValueError(f"Box '{box.name}' already stands on '{shelf.name}'; go to a frame in which it stands "
                              f"where it is to start, or choose a home")
     else:
         return Lift(_in_front(skeleton, shape), _placed(skeleton, target.origin), 0.0, target_yaw, shape, False)
     home_yaw, half_turn = _half_turns(_yaw(skeleton, rotation))
-    return Lift(_placed(skeleton, place), _placed(skeleton, target.origin), home_yaw, target_yaw, shape, half_turn)
+    there = beneath_grips(target_yaw, shape, half_turn)
+    return Lift(_placed(skeleton, place), _placed(skeleton, target.origin) - there, home_yaw, target_yaw, shape, half_turn)
 
 
-def place_of(skeleton: Skeleton, item: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> tuple[Array, float]:
-    """Where an Empty puts the middle of the box's base, body frame, and its turn there, in (-pi/2, pi/2]."""
+def place_of(skeleton: Skeleton, item: bpy.types.Object, lift: Lift,
+             layer: bpy.types.ViewLayer | None = None) -> tuple[Array, float]:
+    """Where an Empty puts the box of `lift`, body frame, and its turn there, in (-pi/2, pi/2]."""
     place = placement(item, layer)
-    return _placed(skeleton, place.origin), _half_turns(_yaw(skeleton, place.rotation))[0]
+    yaw = _half_turns(_yaw(skeleton, place.rotation))[0]
+    return _placed(skeleton, place.origin) - beneath_grips(yaw, lift.box, lift.half_turn), yaw
 
 
-def read_box(box: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> BoxShape:
-    """Size and handles of a box mesh from the bounds of its own vertices in its own axes; ValueError when it cannot be
-    carried. What modifiers make of the mesh is not counted: hands hold the box as it was modelled."""
+def beneath_grips(yaw: float, shape: BoxShape, half_turn: bool) -> Array:
+    """(3,) body frame: from beneath the middle of the grips to the middle of the base, which an Empty marks."""
+    x, y = (-part if half_turn else part for part in shape.middle)
+    return np.array([x * math.cos(yaw) - y * math.sin(yaw), x * math.sin(yaw) + y * math.cos(yaw), 0.0])
+
+
+def read_box(box: bpy.types.Object, layer: bpy.types.ViewLayer | None = None,
+             handles: Sequence[bpy.types.Object] | None = None) -> BoxShape:
+    """Size and handles of a mesh as it lies, from the bounds of what is shown of it; ValueError when it cannot be carried.
+
+    Hands hold it at the middles of its left and right side, along its own x (its y when x stands upright), or at two
+    objects, the `handles`. It keeps the tilt that it has.
+    """
     if not isinstance(box, bpy.types.Object) or box.type != "MESH":
         raise ValueError(f"The box must be a mesh object, not {described(box)}")
     place = placement(box, layer)
-    tilt = math.degrees(math.acos(float(np.clip(place.rotation[2, 2], -1.0, 1.0))))
-    if tilt > MAX_TILT_DEG:
-        raise ValueError(f"Box '{box.name}' is tilted by {tilt:.0f} degrees; the limit is {MAX_TILT_DEG:.0f}")
-    low, high = (corner * place.scale for corner in _bounds(box))
-    size = high - low
+    grips = None if not handles else _handle_places(box, handles, layer)
+    frame = _upright(place.rotation) if grips is None else _along(grips[1] - grips[0])
+    points = (_vertices(box, layer) * place.scale) @ place.rotation.T @ frame
+    low, high = points.min(axis=0), points.max(axis=0)
+    size, middle = high - low, 0.5 * (low + high)
     for axis, length in zip(("width (x)", "depth (y)", "height (z)"), size):
         if not 1e-3 <= length <= _MOST_METRES:
             raise ValueError(f"Box '{box.name}' has a {axis} of {length:g} m; it must be from 0.001 to "
                              f"{_MOST_METRES:g} m")
-    handle = _number(box, HANDLE_HEIGHT, 0.5 * float(size[2]), 0.0, float(size[2]))
-    grips = _number(box, GRIP_DISTANCE, float(size[0]) + 2.0 * _HALF_HAND, 0.02, _MOST_METRES + 1.0)
     mass = _number(box, BOX_MASS, DEFAULT_MASS, 0.0, 200.0)
-    base = np.array([*(0.5 * (low + high))[:2], low[2]])
-    return BoxShape(*(float(length) for length in size), handle, grips, mass, tuple(float(part) for part in -base))
+    if grips is None:
+        under = np.array([*middle[:2], low[2]])
+        handle = _number(box, HANDLE_HEIGHT, 0.5 * float(size[2]), 0.0, float(size[2]))
+        apart = _number(box, GRIP_DISTANCE, float(size[0]) + 2.0 * _HALF_HAND, 0.02, _MOST_METRES + 1.0)
+    else:
+        held = (0.5 * (grips[0] + grips[1]) - place.origin) @ frame
+        under = np.array([*held[:2], low[2]])
+        handle, apart = float(held[2] - low[2]), float(np.linalg.norm(grips[1] - grips[0]))
+        if not 0.0 <= handle <= size[2]:
+            raise ValueError(f"The handles of box '{box.name}' are {handle:.3f} m above its base; it must be from 0 to "
+                             f"its height, {size[2]:.3f} m")
+    width, depth = 2.0 * np.maximum(high - under, under - low)[:2]
+    return BoxShape(float(width), float(depth), float(size[2]), handle, apart, mass, tuple(map(float, -under)),
+                    tuple(map(float, (middle - under)[:2])),
+                    tuple(tuple(map(float, row)) for row in frame.T @ place.rotation))
 
 
-def _bounds(box: bpy.types.Object) -> tuple[Array, Array]:
-    """The least and the greatest x, y, z of the mesh's own vertices."""
-    places = np.empty(3 * len(box.data.vertices), dtype=np.float32)
+def _handle_places(box: bpy.types.Object, handles: Sequence[bpy.types.Object],
+                   layer: bpy.types.ViewLayer | None) -> tuple[Array, Array]:
+    if len(handles) != 2 or not all(isinstance(item, bpy.types.Object) for item in handles):
+        raise ValueError(f"The handles of box '{box.name}' must be two objects, such as Empties parented to it")
+    first, second = (placement(item, layer).origin for item in handles)
+    if (uneven := abs(float(second[2] - first[2]))) > MAX_UNLEVEL_M:
+        raise ValueError(f"The handles of box '{box.name}' differ in height by {uneven:.3f} m; the limit is "
+                         f"{MAX_UNLEVEL_M:g} m")
+    if (apart := math.dist(first[:2], second[:2])) < 0.02:
+        raise ValueError(f"The handles of box '{box.name}' are {apart:.3f} m apart; it must be at least 0.02 m")
+    return first, second
+
+
+def _upright(rotation: Array) -> Array:
+    """(3, 3): columns x, y, z of a frame with z up and x along the object's own x, or its y when x stands upright."""
+    return _along(rotation[:, 0] if abs(rotation[2, 0]) < 0.75 else rotation[:, 1])
+
+
+def _along(way: Array) -> Array:
+    x, y = way[:2] / math.hypot(*way[:2])
+    return np.array([[x, -y, 0.0], [y, x, 0.0], [0.0, 0.0, 1.0]])
+
+
+def _vertices(box: bpy.types.Object, layer: bpy.types.ViewLayer | None) -> Array:
+    """(V, 3) in the object's own axes, as modifiers leave them; of a hidden mesh, as it was modelled."""
+    shown = box.evaluated_get((layer or bpy.context.view_layer).depsgraph)
+    mesh = shown.data if shown.is_evaluated else box.data
+    places = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     if not len(places):
         raise ValueError(f"Box '{box.name}' has no vertices, so it has no size")
-    box.data.vertices.foreach_get("co", places)
-    corners = places.reshape(-1, 3).astype(float)
-    return corners.min(axis=0), corners.max(axis=0)
+    mesh.vertices.foreach_get("co", places)
+    return places.reshape(-1, 3).astype(float)
 
 
 def refuse_held_box(box: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> None:

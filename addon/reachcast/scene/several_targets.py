@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import bpy
+from mathutils import Matrix
 
+from .movers import is_carrier
 from .predict_action import PredictionResult, predict_motion
 
 
@@ -29,9 +31,12 @@ def predict_to_targets(rig: bpy.types.Object, shelves: Sequence[bpy.types.Object
     scene = scene or bpy.context.scene
     first = scene.frame_current if start_frame is None else int(start_frame)
     former = {item: item.animation_data.action if item.animation_data else None for item in (rig, box) if item}
+    place = box.matrix_basis.copy() if box else None
     results, failed = [], []
     for shelf in shelves:
         _take_up(former)  # each motion begins from what the user had, not from the one before
+        if box is not None and former[box] is None:
+            _put_down(box, place)
         try:
             results.append(predict_motion(rig, shelf, box=box, start_frame=first, scene=scene, **options))
         except ValueError as error:
@@ -44,6 +49,13 @@ def predict_to_targets(rig: bpy.types.Object, shelves: Sequence[bpy.types.Object
     _take_up({rig: bpy.data.actions[results[0].action],
               **({box: bpy.data.actions[results[0].box_action]} if box else {})})
     return TargetsResult(tuple(results), tuple(failed))
+
+
+def _put_down(box: bpy.types.Object, place: Matrix) -> None:
+    """Where the box stood before it was animated: without an Action it keeps what the last one gave it."""
+    box.matrix_basis = place
+    for constraint in filter(is_carrier, box.constraints):
+        constraint.influence = 0.0
 
 
 def _take_up(actions: dict[bpy.types.Object, bpy.types.Action | None]) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..rigs.rotations import Array, orthonormal
-from .movers import movers, moves_object
+from .movers import is_carrier, movers, moves_object
 
 #: How far an object's axes may be from one common length, or from right angles, as a part of that length.
 MAX_UNEVEN = 1e-4
@@ -64,8 +64,20 @@ def _world(item: bpy.types.Object, graph: bpy.types.Depsgraph) -> Matrix:
 
 
 def above_matrix(item: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> Array:
-    """(4, 4): world = above @ the object's own location, rotation and scale, which `placement` has not refused."""
-    return world_matrix(item, layer) @ np.linalg.inv(np.array(item.matrix_basis, dtype=float))
+    """(4, 4): world = above @ the object's own location, rotation and scale, which `placement` has not refused;
+    hands that carry the object now are left out."""
+    layer = layer or bpy.context.view_layer
+    world = world_matrix(item, layer)
+    shown = item.evaluated_get(layer.depsgraph)
+    if not shown.is_evaluated:
+        return world @ np.linalg.inv(np.array(item.matrix_basis, dtype=float))
+    for constraint in reversed(shown.constraints):
+        if is_carrier(constraint) and not constraint.mute and constraint.influence > 0.0:
+            if constraint.influence < 1.0:
+                raise ValueError(f"Object '{item.name}' is carried by '{constraint.name}' with an influence of "
+                                 f"{constraint.influence:g}; it must be 0 or 1")
+            world = np.linalg.inv(np.array(constraint.target.matrix_world, dtype=float)) @ world
+    return world @ np.linalg.inv(np.array(shown.matrix_basis, dtype=float))
 
 
 def placement(item: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> Placement:

@@ -81,14 +81,9 @@ def _pelvis_location(rig: bpy.types.Object, skeleton: Skeleton, pose: Any) -> Ar
     return moved @ axes
 
 
-def write_box_action(box: bpy.types.Object, above: Array, origins: Array, rotations: Array, name: str,
-                     first_frame: int) -> bpy.types.Action:
-    """A new Action on `box`: see `box_channels`."""
-    return write_action(box, name, box_channels(box, above, origins, rotations), first_frame)
-
-
-def box_channels(box: bpy.types.Object, above: Array, origins: Array, rotations: Array) -> list[Channel]:
-    """The box's origin (F, 3) and rotation (F, 3, 3) in the world, in its own rotation mode.
+def box_channels(box: bpy.types.Object, above: Array, origins: Array, rotations: Array,
+                 steps: tuple[int, ...]) -> list[Channel]:
+    """The box's origin (F, 3) and rotation (F, 3, 3) in the world, in its own rotation mode, at these steps.
 
     above (4, 4): `transforms.above_matrix` of the box, of even scale.
     """
@@ -96,9 +91,9 @@ def box_channels(box: bpy.types.Object, above: Array, origins: Array, rotations:
     turned = above[:3, :3] / scale
     places = (origins - above[:3, 3]) @ turned / scale
     return [
-        Channel("location", places, "Object Transforms"),
+        Channel("location", places, "Object Transforms", steps),
         Channel(_ROTATION_PATHS.get(box.rotation_mode, "rotation_euler"),
-                native.core().rotation_values(turned.T @ rotations, box.rotation_mode), "Object Transforms"),
+                native.core().rotation_values(turned.T @ rotations, box.rotation_mode), "Object Transforms", steps),
     ]
 
 
