@@ -8,6 +8,7 @@ from typing import Any
 import bpy
 
 from .corpora import default_corpus
+from .reachcast_corpus.listing import person_text
 from .scene import target_cloud
 
 MOST_LISTED = 2000
@@ -21,6 +22,9 @@ class ListedMotion(bpy.types.PropertyGroup):
     """A row. Its name is what the list is searched by."""
 
     motion: bpy.props.IntProperty()
+    phase: bpy.props.StringProperty()
+    place: bpy.props.StringProperty()
+    duration: bpy.props.StringProperty()
     words: bpy.props.StringProperty()
 
 
@@ -54,8 +58,8 @@ def fill(listing: MotionListing, corpus: Any) -> None:
         row = listing.rows.add()
         row.motion = motion.id
         origin = Path(motion.origin).name + (" (mirror image)" if motion.mirrored else "")
-        subject = motion.subject
-        sex = {"female": "f", "male": "m"}.get(subject.sex, "")
         row.name = f"{motion.id} {motion.phase} {origin}"
-        row.words = (f"{motion.phase}, {sex} {subject.stature:.2f} m, to "
-                     f"{', '.join(f'{value:.2f}' for value in motion.target)}, {motion.duration:.1f} s, {origin}")
+        row.phase, row.place = motion.phase, f"{motion.target[2]:.2f} m"
+        row.duration = f"{motion.duration:.1f} s"
+        place = ", ".join(f"{value:.2f}" for value in motion.target)
+        row.words = f"Motion {motion.id}: {person_text(motion.subject)}, hands to ({place}) m, from {origin}"

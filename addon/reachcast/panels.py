@@ -10,6 +10,7 @@ from . import path_editing
 from .corpora import default_corpus
 from .operators.edit_hand_path import (REACHCAST_OT_edit_hand_path, REACHCAST_OT_finish_hand_path,
                                        REACHCAST_OT_follow_targets)
+from .operators.pose_ghosts import REACHCAST_OT_pose_ghosts
 from .operators.predict_family import REACHCAST_OT_choose_percentile, REACHCAST_OT_predict_family
 from .operators.predict_motion import REACHCAST_OT_predict_motion
 from .operators.predict_targets import REACHCAST_OT_predict_targets
@@ -44,7 +45,7 @@ class REACHCAST_PT_lift(_Tab, bpy.types.Panel):
             _words(column, "", "simulated, ships with it")
         blocking = [need for need in needs(settings) if need.reason]
         for need in blocking:
-            _lines(self.layout, context, need.reason, "ERROR")
+            lines(self.layout, context, need.reason, "ERROR")
         row = self.layout.row()
         row.scale_y = 1.4
         row.operator(REACHCAST_OT_predict_motion.bl_idname, icon="ACTION")
@@ -55,9 +56,9 @@ class REACHCAST_PT_lift(_Tab, bpy.types.Panel):
             row.operator(REACHCAST_OT_finish_hand_path.bl_idname, text="", icon="PAUSE")
         problem = context.window_manager.reachcast_problem
         if problem:
-            _lines(self.layout, context, f"{problem[0].upper()}{problem[1:]}.", "CANCEL")
+            lines(self.layout, context, f"{problem[0].upper()}{problem[1:]}.", "CANCEL")
         elif not blocking:
-            _lines(self.layout, context, f"Ready: starts at frame {context.scene.frame_current}.", "CHECKMARK")
+            lines(self.layout, context, f"Ready: starts at frame {context.scene.frame_current}.", "CHECKMARK")
 
 
 class REACHCAST_PT_subject(_Tab, bpy.types.Panel):
@@ -103,7 +104,7 @@ class REACHCAST_PT_hand_path(_Tab, bpy.types.Panel):
             column.operator(REACHCAST_OT_edit_hand_path.bl_idname, icon="CURVE_BEZCURVE")
             column.operator(REACHCAST_OT_edit_hand_path.bl_idname, text="Edit Empty Hands Too").all_phases = True
             return
-        _lines(self.layout, context, f"Move the handles of {', '.join(session.curves.values())} in Edit Mode, or the "
+        lines(self.layout, context, f"Move the handles of {', '.join(session.curves.values())} in Edit Mode, or the "
                                      f"ends: '{session.result.action}' follows.", "CURVE_BEZCURVE")
         self.layout.operator(REACHCAST_OT_finish_hand_path.bl_idname, icon="CHECKMARK")
 
@@ -159,12 +160,13 @@ class REACHCAST_PT_result(_Tab, bpy.types.Panel):
         kind = action["reachcast_corpus_kind"]
         if action["reachcast_outside_data"]:
             why = action["reachcast_outside_reasons"] or "the target"
-            _lines(self.layout, context, f"Outside the {kind} data, take it with care: {why}", "ERROR")
+            lines(self.layout, context, f"Outside the {kind} data, take it with care: {why}", "ERROR")
         else:
-            _lines(self.layout, context, f"Within the {kind} data.", "CHECKMARK")
-        _lines(self.layout, context, f"From motions {action['reachcast_neighbours']}", "COMMUNITY")
+            lines(self.layout, context, f"Within the {kind} data.", "CHECKMARK")
+        lines(self.layout, context, f"From motions {action['reachcast_neighbours']}", "COMMUNITY")
+        self.layout.operator(REACHCAST_OT_pose_ghosts.bl_idname, icon="GHOST_ENABLED")
         if action["reachcast_corrections"]:
-            _lines(self.layout, context, f"Corrected: {action['reachcast_corrections']}", "INFO")
+            lines(self.layout, context, f"Corrected: {action['reachcast_corrections']}", "INFO")
 
 
 def _predicted_action(context: bpy.types.Context) -> bpy.types.Action | None:
@@ -185,7 +187,7 @@ def _words(column: bpy.types.UILayout, left: str, right: str) -> None:
     split.label(text=right)
 
 
-def _lines(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str) -> None:
+def lines(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str) -> None:
     """A sentence over as many lines as the panel's width needs, so that no word is cut off."""
     scale = context.preferences.system.ui_scale
     letters = max(16, int((context.region.width / scale - 60.0) / 6.3))

@@ -5,8 +5,8 @@ from __future__ import annotations
 import bpy
 
 from . import corpora, corpus_settings, panels, panels_corpus, panels_rig, path_editing, properties
-from .operators import (add_mannequin, bone_maps, corpus_motions, edit_hand_path, import_motions, predict_family,
-                        predict_motion, predict_targets, predict_variants)
+from .operators import (add_mannequin, bone_maps, corpus_motions, edit_hand_path, import_motions, pose_ghosts,
+                        predict_family, predict_motion, predict_targets, predict_variants)
 from .scene import map_editing, target_cloud
 
 CLASSES: tuple[type, ...] = (
@@ -20,6 +20,7 @@ CLASSES: tuple[type, ...] = (
     predict_targets.REACHCAST_OT_predict_targets,
     predict_family.REACHCAST_OT_predict_family,
     predict_family.REACHCAST_OT_choose_percentile,
+    pose_ghosts.REACHCAST_OT_pose_ghosts,
     edit_hand_path.REACHCAST_OT_edit_hand_path,
     edit_hand_path.REACHCAST_OT_follow_targets,
     edit_hand_path.REACHCAST_OT_finish_hand_path,

@@ -17,7 +17,7 @@ def add_ghost(prepared: Prepared, solved: Solved, rig: bpy.types.Object, box: bp
               layer: bpy.types.ViewLayer) -> PredictionResult:
     """A copy of rig and box, `aside` metres to the subject's right, with Actions that begin at frame `first`."""
     copy = _copied(rig, collection)
-    for worn in _worn_by(rig):
+    for worn in worn_by(rig):
         _dress(_copied(worn, collection), rig, copy)
     copy.matrix_world = rig.matrix_world.copy()
     return perform_aside(prepared, solved, copy, box, what, first, aside, collection, layer, name=rig.name)
@@ -55,7 +55,7 @@ def _free_name(name: str) -> str:
     return next(free for free in (f"{name} {number}" for number in itertools.count(1)) if free not in bpy.data.objects)
 
 
-def _worn_by(rig: bpy.types.Object) -> list[bpy.types.Object]:
+def worn_by(rig: bpy.types.Object) -> list[bpy.types.Object]:
     """Meshes that the rig moves: its children and those that it deforms."""
     deformed = (item for item in bpy.data.objects
                 if any(modifier.type == "ARMATURE" and modifier.object == rig for modifier in item.modifiers))

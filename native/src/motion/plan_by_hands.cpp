@@ -10,7 +10,7 @@ namespace {
 using enum Joint;
 
 constexpr double kUpright = 0.87;  // cosine of 30 degrees: the trunk from the vertical
-constexpr double kHanging = 0.82;  // cosine of 35 degrees: the arms from the vertical
+constexpr double kHanging = 0.9;   // cosine of 26 degrees: the arms from the vertical
 
 double rise(const Vec3& from, const Vec3& to) {
   return (to.z - from.z) / glm::distance(from, to);

@@ -14,12 +14,6 @@ constexpr double kLifted_m = 0.01;     // from its resting place
 constexpr double kRest_s = 0.5;        // looked at to find a resting place
 constexpr double kSamePlace_m = 0.25;  // between where the hands take or put the object, and home
 
-/// Frames of one carry. An object that is on its way at an end of the recording has no grasp, or no release.
-struct Carry {
-  FrameRange moving;  ///< lift-off to placed
-  std::optional<std::size_t> grasp, release;
-};
-
 double farthest(const Points& points, const FrameRange& range) {
   double far = 0.0;
   for (std::size_t f = range.first; f <= range.last; ++f)
@@ -64,64 +58,59 @@ void settle_ends(const Points& object, double rate_hz, const FrameRange& between
   while (run.last < between.last && lifted(run.last + 1, after)) ++run.last;
 }
 
-/// How far from frame `from` towards `to` both hands stay as far from the object as they are there, to half the slip.
-std::size_t contact_end(const HandTracks& hands, const Points& object, std::size_t from, std::size_t to,
-                        double slip_m) {
-  const auto holds = [&](std::size_t f) {
-    return std::all_of(hands.grips.begin(), hands.grips.end(), [&](const Points& grip) {
-      return std::abs(glm::distance(grip[f], object[f]) - glm::distance(grip[from], object[from])) <= 0.5 * slip_m;
-    });
-  };
-  std::size_t end = from;
-  while (end != to) {
-    const std::size_t next = to > end ? end + 1 : end - 1;
-    if (!holds(next)) break;
-    end = next;
-  }
-  return end;
-}
-
-std::vector<Carry> find_carries(const HandTracks& hands, const Points& object, const FindOptions& options) {
-  const std::vector<FrameRange> runs = moving_ranges(hands, object, options);
-  std::vector<Carry> carries;
-  const std::size_t last = hands.frames() - 1;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const FrameRange between{i == 0 ? 0 : carries.back().moving.last, i + 1 < runs.size() ? runs[i + 1].first : last};
-    Carry carry{runs[i], {}, {}};
-    settle_ends(object, hands.rate_hz, between, carry.moving);
-    const std::size_t earliest = carries.empty() ? 0 : carries.back().release.value_or(between.first);
-    if (carry.moving.first > 0) {
-      carry.grasp = contact_end(hands, object, carry.moving.first, earliest, options.slip_m);
-    }
-    if (carry.moving.last < last) {
-      carry.release = contact_end(hands, object, carry.moving.last, between.last, options.slip_m);
-    }
-    carries.push_back(carry);
+/// Lift-off to placed of each carry. One that touches an end of the recording was on its way there.
+std::vector<FrameRange> find_carries(const HandTracks& hands, const Points& object, const FindOptions& options) {
+  std::vector<FrameRange> carries = moving_ranges(hands, object, options);
+  for (std::size_t i = 0; i < carries.size(); ++i) {
+    const std::size_t after = i + 1 < carries.size() ? carries[i + 1].first : hands.frames() - 1;
+    settle_ends(object, hands.rate_hz, {i == 0 ? 0 : carries[i - 1].last, after}, carries[i]);
   }
   return carries;
 }
 
+/// The frame at which the hands are slowest while they touch the object at rest: from `from` towards `to`, as long as
+/// both stay as far from it as they are at `from`, to half the slip.
+std::size_t stillest_touch(const HandTracks& hands, const Points& object, std::size_t from, std::size_t to,
+                           const FindOptions& options) {
+  const auto touch = [&](std::size_t f) {
+    return std::all_of(hands.grips.begin(), hands.grips.end(), [&](const Points& grip) {
+      const double now = glm::distance(grip[f], object[f]), then = glm::distance(grip[from], object[from]);
+      return std::abs(now - then) <= 0.5 * options.slip_m;
+    });
+  };
+  std::size_t stillest = from;
+  for (std::size_t f = from; f != to;) {
+    f = to > f ? f + 1 : f - 1;
+    if (!touch(f)) break;
+    if (hands.speed[f] < hands.speed[stillest]) stillest = f;
+  }
+  return stillest;
+}
+
 /// Ways of the empty hands between two carries: the first leads away from what was let go, the last to what is taken.
+/// The hands let go when the first begins, and grasp when the last ends.
 void plan_empty(const HandTracks& hands, const FrameRange& within, bool after, bool before, const FindOptions& options,
                 Plan& plan) {
   const std::vector<FrameRange> found = ways(hands, within, options);
+  if (after && !found.empty()) plan.events.push_back({"release", found.front().first});
   for (std::size_t i = 0; i < found.size(); ++i) {
     Way way{found[i], {}, "the hands are empty and come neither to the object nor from it"};
     if (before && i + 1 == found.size()) way.phase = Phase::reach;
-    if (after && i == 0 && !(way.phase && found.size() == 1)) way.phase = Phase::return_;
+    if (after && i == 0 && !(before && found.size() == 1)) way.phase = Phase::return_;
     plan.ways.push_back(way);
   }
+  if (before && !found.empty()) plan.events.push_back({"grasp", found.back().last});
 }
 
-void plan_loaded(const HandTracks& hands, const Carry& carry, const FindOptions& options, Home& home, Plan& plan) {
-  home.pick_up(hands.hold[carry.moving.first]);
-  std::vector<FrameRange> found = ways(hands, carry.moving, options);
-  if (found.empty()) found.push_back(carry.moving);
+void plan_loaded(const HandTracks& hands, const FrameRange& carry, const FindOptions& options, Home& home, Plan& plan) {
+  home.pick_up(hands.hold[carry.first]);
+  std::vector<FrameRange> found = ways(hands, carry, options);
+  if (found.empty()) found.push_back(carry);
   const auto near = [&](std::size_t a, std::size_t b) {
     return static_cast<double>(b - a) / hands.rate_hz < options.pause_s;
   };
-  if (near(carry.moving.first, found.front().first)) found.front().first = carry.moving.first;
-  if (near(found.back().last, carry.moving.last)) found.back().last = carry.moving.last;
+  if (near(carry.first, found.front().first)) found.front().first = carry.first;
+  if (near(found.back().last, carry.last)) found.back().last = carry.last;
   for (const FrameRange& range : found) {
     plan.ways.push_back({range, home.loaded_way(hands.hold[range.first], hands.hold[range.last]), {}});
   }
@@ -147,7 +136,7 @@ Phase Home::loaded_way(const Vec3& from, const Vec3& to) {
 Plan plan_by_object(const HandTracks& hands, const Points& object, const std::string& name,
                     const FindOptions& options) {
   Plan plan;
-  const std::vector<Carry> carries = find_carries(hands, object, options);
+  const std::vector<FrameRange> carries = find_carries(hands, object, options);
   if (carries.empty()) {
     std::ostringstream text;
     text << "the object '" << name << "' is never carried: it moves at most "
@@ -156,22 +145,19 @@ Plan plan_by_object(const HandTracks& hands, const Points& object, const std::st
     return plan;
   }
   Home home;
+  const std::size_t last = hands.frames() - 1;
   std::size_t cursor = 0;
-  bool after = false;
-  for (const Carry& carry : carries) {
-    if (carry.grasp) {
-      plan_empty(hands, {cursor, std::max(cursor, *carry.grasp)}, after, true, options, plan);
-      plan.events.push_back({"grasp", *carry.grasp});
-      plan.events.push_back({"lift-off", carry.moving.first});
-    }
+  for (std::size_t i = 0; i < carries.size(); ++i) {
+    const FrameRange& carry = carries[i];
+    const std::size_t grasped = stillest_touch(hands, object, carry.first, cursor, options);
+    plan_empty(hands, {cursor, grasped}, cursor > 0, true, options, plan);
+    if (carry.first > 0) plan.events.push_back({"lift-off", carry.first});
     plan_loaded(hands, carry, options, home, plan);
-    after = carry.release.has_value();
-    cursor = carry.release.value_or(carry.moving.last);
-    if (!after) continue;
-    plan.events.push_back({"placed", carry.moving.last});
-    plan.events.push_back({"release", *carry.release});
+    if (carry.last < last) plan.events.push_back({"placed", carry.last});
+    const std::size_t next = i + 1 < carries.size() ? carries[i + 1].first : last;
+    cursor = stillest_touch(hands, object, carry.last, next, options);
   }
-  plan_empty(hands, {cursor, hands.frames() - 1}, after, false, options, plan);
+  plan_empty(hands, {cursor, last}, true, false, options, plan);
   return plan;
 }
 
