@@ -2,6 +2,7 @@
 """Recordings into a corpus, one file and one transaction at a time."""
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,12 +32,18 @@ class FileReport:
 
 
 def open_or_create(core: ModuleType, path: str | Path, compact: bool = False, kind: str = "recorded") -> object:
-    """The corpus at `path`, opened for writing; made there when there is none."""
-    if Path(path).exists():
-        return core.Corpus.open_for_writing(str(path))
-    corpus = core.Corpus.create(str(path), precision="compact" if compact else "exact")
-    corpus.set_meta("kind", kind)
-    return corpus
+    """The corpus at `path`, opened for writing; made there when there is none, as a whole or not at all."""
+    path = Path(path)
+    if not path.exists():
+        draft = path.with_name(f"{path.name}.{os.getpid()}.new")
+        draft.unlink(missing_ok=True)  # of a process of the same number that was killed
+        try:
+            with core.Corpus.create(str(draft), precision="compact" if compact else "exact") as corpus:
+                corpus.set_meta("kind", kind)
+        except (ValueError, RuntimeError) as why:
+            raise type(why)(str(why).replace(str(draft), str(path))) from None
+        os.replace(draft, path)
+    return core.Corpus.open_for_writing(str(path))
 
 
 def labels_by_file(core: ModuleType, table: str | Path | None) -> dict[str, list[object]]:
