@@ -58,7 +58,7 @@ std::optional<StoredSource> add_source(Corpus& corpus, const std::string& path, 
                                        std::int64_t bytes, const std::vector<Reach>& reaches,
                                        const RejectionTexts& left_out, const std::string& note,
                                        const std::string& settings, bool mirror) {
-  std::vector<reachcast::Rejection> rejections;
+  std::vector<reachcast::StoredRejection> rejections;
   for (const auto& [what, reason] : left_out) rejections.push_back({what, reason});
   const SourceFile file{path, checksum, bytes, "reachcast " REACHCAST_VERSION, note, settings};
   return corpus.add_source(file, codes_of(reaches, mirror), rejections);

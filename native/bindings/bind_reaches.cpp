@@ -20,11 +20,11 @@ namespace {
 
 using reachcast::Clip;
 using reachcast::CutOptions;
-using reachcast::Event;
 using reachcast::Evidence;
 using reachcast::FindOptions;
 using reachcast::FoundReaches;
 using reachcast::kJointCount;
+using reachcast::ObjectEvent;
 using reachcast::PhaseLabel;
 using reachcast::Reach;
 using reachcast::Rejection;
@@ -151,10 +151,12 @@ FoundReaches cut_labelled(const Clip& body, const std::vector<PhaseLabel>& label
 }
 
 void bind_found(py::module_& m) {
-  py::class_<Event>(m, "Event", "What happens to the object at a frame: grasp, lift-off, placed or release.")
-      .def_readonly("name", &Event::name)
-      .def_readonly("frame", &Event::frame)
-      .def("__repr__", [](const Event& e) { return "<Event " + e.name + " at " + std::to_string(e.frame) + ">"; });
+  py::class_<ObjectEvent>(m, "ObjectEvent",
+                          "What happens to the object at a frame: grasp, lift-off, placed or release.")
+      .def_readonly("name", &ObjectEvent::name)
+      .def_readonly("frame", &ObjectEvent::frame)
+      .def("__repr__",
+           [](const ObjectEvent& e) { return "<ObjectEvent " + e.name + " at " + std::to_string(e.frame) + ">"; });
   py::class_<Rejection>(m, "Rejection", "A part of a recording that is no reach, and why.")
       .def_property_readonly(
           "what", [](const Rejection& r) { return text(r.what); },
@@ -177,7 +179,7 @@ void bind_found(py::module_& m) {
           },
           "(first, last) frame of each reach, in the same order.")
       .def_readonly("rejections", &FoundReaches::rejections, "A list of Rejection.")
-      .def_readonly("events", &FoundReaches::events, "A list of Event, in order of time.")
+      .def_readonly("events", &FoundReaches::events, "A list of ObjectEvent, in order of time.")
       .def("__repr__", [](const FoundReaches& found) {
         return "<FoundReaches: " + std::to_string(found.reaches.size()) + " reaches, " +
                std::to_string(found.rejections.size()) + " rejections>";
@@ -211,7 +213,7 @@ void bind_labels(py::module_& m) {
       .def_property_readonly("events",
                              [](const PhaseLabel& label) {
                                py::dict events;
-                               for (const Event& event : label.events) events[py::str(event.name)] = event.frame;
+                               for (const ObjectEvent& event : label.events) events[py::str(event.name)] = event.frame;
                                return events;
                              })
       .def(

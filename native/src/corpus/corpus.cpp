@@ -151,7 +151,7 @@ std::vector<std::int64_t> Corpus::add(std::span<const MotionCode> codes) {
 }
 
 std::optional<StoredSource> Corpus::add_source(const SourceFile& file, std::span<const MotionCode> codes,
-                                               std::span<const Rejection> rejections) {
+                                               std::span<const StoredRejection> rejections) {
   const std::scoped_lock lock(state_->mutex);
   Connection& connection = require_writable(state_->connection, state_->path);
   if (const std::string complaint = sources::complaint(file); !complaint.empty())
@@ -164,7 +164,7 @@ std::optional<StoredSource> Corpus::add_source(const SourceFile& file, std::span
       sources::remove_source(connection, earlier->id);
     }
     StoredSource stored{sources::insert(connection, file, rejections), file, 0,
-                        std::vector<Rejection>(rejections.begin(), rejections.end())};
+                        std::vector<StoredRejection>(rejections.begin(), rejections.end())};
     stored.motions = write_codes(connection, codes, stored.id, state_->path).size();
     transaction.commit();
     state_->forget();

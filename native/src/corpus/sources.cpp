@@ -22,7 +22,7 @@ std::optional<Key> find(Connection& connection, const std::string& checksum) {
   return Key{row.integer(0), std::string(row.text(1))};
 }
 
-std::int64_t insert(Connection& connection, const SourceFile& file, std::span<const Rejection> rejections) {
+std::int64_t insert(Connection& connection, const SourceFile& file, std::span<const StoredRejection> rejections) {
   Statement source(connection,
                    "INSERT INTO sources (path, checksum, bytes, tool, note, settings) VALUES (?, ?, ?, ?, ?, ?)");
   source.bind(1, std::string_view(file.path));
@@ -34,7 +34,7 @@ std::int64_t insert(Connection& connection, const SourceFile& file, std::span<co
   source.run();
   const std::int64_t id = connection.last_id();
   Statement rejection(connection, "INSERT INTO rejections (source, what, reason) VALUES (?, ?, ?)");
-  for (const Rejection& left_out : rejections) {
+  for (const StoredRejection& left_out : rejections) {
     rejection.bind(1, id);
     rejection.bind(2, std::string_view(left_out.what));
     rejection.bind(3, std::string_view(left_out.reason));

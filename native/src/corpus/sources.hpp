@@ -21,7 +21,7 @@ struct Key {
 };
 [[nodiscard]] std::optional<Key> find(sqlite::Connection& connection, const std::string& checksum);
 [[nodiscard]] std::int64_t insert(sqlite::Connection& connection, const SourceFile& file,
-                                  std::span<const Rejection> rejections);
+                                  std::span<const StoredRejection> rejections);
 [[nodiscard]] std::vector<StoredSource> all(sqlite::Connection& connection);
 
 /// In id order; none for an unknown file.

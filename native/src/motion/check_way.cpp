@@ -18,7 +18,7 @@ std::string frames_text(std::size_t first, std::size_t last) {
                        : "frames " + std::to_string(first) + " to " + std::to_string(last);
 }
 
-std::string fault_in(const Recorded& recorded, const FrameRange& range) {
+std::string fault_in(const Tracked& recorded, const FrameRange& range) {
   for (const TrackingFault& fault : recorded.faults) {
     if (fault.first > range.last || fault.last < range.first) continue;
     return fault.joint + " " + fault.reason + " in " + frames_text(fault.first, fault.last);
@@ -46,7 +46,7 @@ std::string filled_in(const Clip& clip, const FrameRange& range, double longest_
   return {};
 }
 
-std::string missing_object(const Recorded& recorded, const FrameRange& range, double longest_s) {
+std::string missing_object(const Tracked& recorded, const FrameRange& range, double longest_s) {
   std::size_t missing = 0;
   for (std::size_t f = range.first; f <= range.last; ++f) {
     missing = is_finite((*recorded.object_as_is)[f]) ? 0 : missing + 1;
@@ -59,7 +59,7 @@ std::string missing_object(const Recorded& recorded, const FrameRange& range, do
 }
 
 /// Whether both hands hold the same thing all the way.
-std::string loose_hold(const Recorded& recorded, const FrameRange& range, const FindOptions& options) {
+std::string loose_hold(const Tracked& recorded, const FrameRange& range, const FindOptions& options) {
   const HandTracks& hands = recorded.hands;
   if (recorded.object) {
     for (std::size_t side = 0; side < 2; ++side) {
@@ -116,7 +116,7 @@ Standing standing_about(const Clip& clip, std::size_t anchor, const FrameRange& 
   return standing;
 }
 
-std::string why_not(const Recorded& recorded, const FrameRange& range, Phase phase, const FindOptions& options) {
+std::string why_not(const Tracked& recorded, const FrameRange& range, Phase phase, const FindOptions& options) {
   const HandTracks& hands = recorded.hands;
   const double seconds = static_cast<double>(range.last - range.first) / hands.rate_hz;
   if (seconds < options.least_s) {

@@ -9,7 +9,7 @@
 namespace reachcast {
 
 /// What is looked at; all of the same recording.
-struct Recorded {
+struct Tracked {
   const Clip& clip;
   const HandTracks& hands;
   const Points* object;        ///< bridged; null: none
@@ -27,7 +27,7 @@ struct Standing {
                                       const FindOptions& options);
 
 /// Why the range is no phase; empty when it is one. Feet are not looked at.
-[[nodiscard]] std::string why_not(const Recorded& recorded, const FrameRange& range, Phase phase,
+[[nodiscard]] std::string why_not(const Tracked& recorded, const FrameRange& range, Phase phase,
                                   const FindOptions& options);
 
 /// "0.31": two digits for messages.

@@ -34,8 +34,8 @@ void cut_label(const Clip& clip, const HandTracks& hands, const PhaseLabel& labe
   if (evidence.object && is_loaded(label.phase)) {
     object = bridged(evidence.object->positions, "the object '" + evidence.object->name + "'");
   }
-  const Recorded all{clip, hands, object ? &*object : nullptr, object ? &evidence.object->positions : nullptr,
-                     evidence.faults};
+  const Tracked all{clip, hands, object ? &*object : nullptr, object ? &evidence.object->positions : nullptr,
+                    evidence.faults};
   std::string reason = standing_about(clip, range.first, range, options).moved;
   if (reason.empty()) reason = why_not(all, range, label.phase, options);
   keeper.keep(range, label.phase, reason, found);
@@ -67,7 +67,7 @@ FoundReaches cut_labelled(const Clip& clip, const std::vector<PhaseLabel>& label
     }
   }
   std::stable_sort(found.events.begin(), found.events.end(),
-                   [](const Event& a, const Event& b) { return a.frame < b.frame; });
+                   [](const ObjectEvent& a, const ObjectEvent& b) { return a.frame < b.frame; });
   return found;
 }
 

@@ -42,7 +42,7 @@ Part tail_of(const HandTracks& hands, const FrameRange& way, const FrameRange& s
 
 class Cutter {
  public:
-  Cutter(const Recorded& recorded, const Keeper& keeper, const FindOptions& options, FoundReaches& found)
+  Cutter(const Tracked& recorded, const Keeper& keeper, const FindOptions& options, FoundReaches& found)
       : recorded_(recorded), keeper_(keeper), options_(options), found_(found) {}
 
   void cut(const Way& way) {
@@ -76,7 +76,7 @@ class Cutter {
     keeper_.keep(part.frames, phase, reason, found_);
   }
 
-  const Recorded& recorded_;
+  const Tracked& recorded_;
   const Keeper& keeper_;
   const FindOptions& options_;
   FoundReaches& found_;
@@ -120,12 +120,12 @@ FoundReaches find_reaches(const Clip& clip, const Subject& subject, const FindOp
   } catch (const std::invalid_argument& missing) {
     return nothing(missing.what());
   }
-  const Plan plan =
+  const WayPlan plan =
       object ? plan_by_object(hands, *object, evidence.object->name, options) : plan_by_hands(hands, clip, options);
   found.events = plan.events;
   if (!plan.nothing.empty()) return nothing(plan.nothing);
-  const Recorded recorded{clip, hands, object ? &*object : nullptr, object ? &evidence.object->positions : nullptr,
-                          evidence.faults};
+  const Tracked recorded{clip, hands, object ? &*object : nullptr, object ? &evidence.object->positions : nullptr,
+                         evidence.faults};
   Cutter cutter(recorded, keeper, options, found);
   for (const Way& way : plan.ways) cutter.cut(way);
   return found;

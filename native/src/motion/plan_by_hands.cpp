@@ -60,7 +60,7 @@ class HandState {
 };
 
 /// Grasp and lift-off are the ends of the stop before a loaded way, placed and release those of the stop after it.
-void add_events(const std::vector<Way>& ways, Plan& plan) {
+void add_events(const std::vector<Way>& ways, WayPlan& plan) {
   for (std::size_t i = 0; i < ways.size(); ++i) {
     if (!ways[i].phase || !is_loaded(*ways[i].phase)) continue;
     const auto is_empty = [&](std::size_t k) { return !ways[k].phase || !is_loaded(*ways[k].phase); };
@@ -77,8 +77,8 @@ void add_events(const std::vector<Way>& ways, Plan& plan) {
 
 }  // namespace
 
-Plan plan_by_hands(const HandTracks& hands, const Clip& clip, const FindOptions& options) {
-  Plan plan;
+WayPlan plan_by_hands(const HandTracks& hands, const Clip& clip, const FindOptions& options) {
+  WayPlan plan;
   HandState state(hands, clip, options);
   for (const FrameRange& stroke : ways(hands, {0, hands.frames() - 1}, options)) {
     const std::optional<Phase> phase = state.next(stroke);

@@ -90,7 +90,7 @@ std::size_t stillest_touch(const HandTracks& hands, const Points& object, std::s
 /// Ways of the empty hands between two carries: the first leads away from what was let go, the last to what is taken.
 /// The hands let go when the first begins, and grasp when the last ends.
 void plan_empty(const HandTracks& hands, const FrameRange& within, bool after, bool before, const FindOptions& options,
-                Plan& plan) {
+                WayPlan& plan) {
   const std::vector<FrameRange> found = ways(hands, within, options);
   if (after && !found.empty()) plan.events.push_back({"release", found.front().first});
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -102,7 +102,8 @@ void plan_empty(const HandTracks& hands, const FrameRange& within, bool after, b
   if (before && !found.empty()) plan.events.push_back({"grasp", found.back().last});
 }
 
-void plan_loaded(const HandTracks& hands, const FrameRange& carry, const FindOptions& options, Home& home, Plan& plan) {
+void plan_loaded(const HandTracks& hands, const FrameRange& carry, const FindOptions& options, Home& home,
+                 WayPlan& plan) {
   home.pick_up(hands.hold[carry.first]);
   std::vector<FrameRange> found = ways(hands, carry, options);
   if (found.empty()) found.push_back(carry);
@@ -133,9 +134,9 @@ Phase Home::loaded_way(const Vec3& from, const Vec3& to) {
   return after < kSamePlace_m && after < 0.5 * before ? Phase::retrieve : Phase::transfer;
 }
 
-Plan plan_by_object(const HandTracks& hands, const Points& object, const std::string& name,
-                    const FindOptions& options) {
-  Plan plan;
+WayPlan plan_by_object(const HandTracks& hands, const Points& object, const std::string& name,
+                       const FindOptions& options) {
+  WayPlan plan;
   const std::vector<FrameRange> carries = find_carries(hands, object, options);
   if (carries.empty()) {
     std::ostringstream text;

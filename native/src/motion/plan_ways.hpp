@@ -17,18 +17,18 @@ struct Way {
   std::string why_not;
 };
 
-struct Plan {
-  std::vector<Way> ways;      ///< in order of time
-  std::vector<Event> events;  ///< in order of time
-  std::string nothing;        ///< why there are no ways at all
+struct WayPlan {
+  std::vector<Way> ways;            ///< in order of time
+  std::vector<ObjectEvent> events;  ///< in order of time
+  std::string nothing;              ///< why there are no ways at all
 };
 
 /// The object tells when it is held: from lift-off to where it is placed.
-[[nodiscard]] Plan plan_by_object(const HandTracks& hands, const Points& object, const std::string& name,
-                                  const FindOptions& options);
+[[nodiscard]] WayPlan plan_by_object(const HandTracks& hands, const Points& object, const std::string& name,
+                                     const FindOptions& options);
 
 /// The hands tell: having come to a place they hold something until they part or sink to the sides.
-[[nodiscard]] Plan plan_by_hands(const HandTracks& hands, const Clip& clip, const FindOptions& options);
+[[nodiscard]] WayPlan plan_by_hands(const HandTracks& hands, const Clip& clip, const FindOptions& options);
 
 /// Transfer or retrieve: remembers where an object was picked up.
 class Home {

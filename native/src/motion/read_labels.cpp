@@ -12,8 +12,8 @@
 namespace reachcast {
 namespace {
 
-constexpr std::array<std::string_view, 11> kColumns{"file",  "subject", "stature_m", "sex",     "age",  "mass_kg",
-                                                    "phase", "first",   "last",      "start_s", "end_s"};
+constexpr std::array<std::string_view, 12> kColumns{"file",  "subject", "stature_m", "sex",     "age",   "mass_kg",
+                                                    "phase", "first",   "last",      "start_s", "end_s", "object"};
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kEvents{{{"grasp_frame", "grasp"},
                                                                                 {"lift_off_frame", "lift-off"},
                                                                                 {"placed_frame", "placed"},
@@ -26,15 +26,14 @@ constexpr double kMostFrames = 1e9;
 
 void check_columns(const TextTable& table) {
   std::string known;
-  for (const std::string_view name : kColumns) known += std::string(name) + ", ";
-  known += "object";
+  for (const std::string_view name : kColumns) known += (known.empty() ? "" : ", ") + std::string(name);
   for (const auto& [column, event] : kEvents) known += ", " + std::string(column);
   const auto has = [&](std::string_view name) {
     return std::find(table.names.begin(), table.names.end(), name) != table.names.end();
   };
   for (const std::string& name : table.names) {
     const bool fits =
-        name == "object" || std::find(kColumns.begin(), kColumns.end(), name) != kColumns.end() ||
+        std::find(kColumns.begin(), kColumns.end(), name) != kColumns.end() ||
         std::any_of(kEvents.begin(), kEvents.end(), [&](const auto& event) { return event.first == name; });
     if (!fits) fail(table.source, "column '" + name + "' is not known; the columns are " + known);
   }
@@ -190,7 +189,7 @@ std::string PhaseLabel::text() const {
   add("start_s", start_s);
   add("end_s", end_s);
   add("object", object);
-  for (const Event& event : events) out << ", " << event.name << ' ' << event.frame;
+  for (const ObjectEvent& event : events) out << ", " << event.name << ' ' << event.frame;
   return out.str();
 }
 

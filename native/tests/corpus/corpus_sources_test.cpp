@@ -16,7 +16,7 @@ namespace reachcast::tests {
 namespace {
 
 const SourceFile kFile{"lifts/é.bvh", "sha256:01", 1234, "reachcast 1.0", "centimetres, y up", "stature 1.8"};
-const std::array<Rejection, 2> kLeftOut{{{"reach, frames 3 to 9", "a foot steps"}, {"transfer", "it is short"}}};
+const std::array<StoredRejection, 2> kLeftOut{{{"reach, frames 3 to 9", "a foot steps"}, {"transfer", "it is short"}}};
 
 TEST(CorpusSources, AFileIsKeptWithWhatItGaveAndWhatWasLeftOut) {
   const TemporaryFolder folder;

@@ -72,7 +72,7 @@ class Corpus {
   /// checksum and settings are stored already changes nothing and yields nothing; one stored with other settings is
   /// replaced. Motions whose (origin, mirrored, phase) another file brought stay that file's.
   std::optional<StoredSource> add_source(const SourceFile& file, std::span<const MotionCode> codes,
-                                         std::span<const Rejection> rejections);
+                                         std::span<const StoredRejection> rejections);
   [[nodiscard]] std::vector<StoredSource> sources() const;  ///< all, in id order
   /// Whether `add_source` would change nothing.
   [[nodiscard]] bool has_source(const std::string& checksum, const std::string& settings) const;

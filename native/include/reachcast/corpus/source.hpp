@@ -20,7 +20,7 @@ struct SourceFile {
 };
 
 /// Something in the file that did not become a motion.
-struct Rejection {
+struct StoredRejection {
   std::string what;    ///< such as "transfer, frames 10 to 45"
   std::string reason;  ///< such as "a foot steps"
 };
@@ -29,7 +29,7 @@ struct StoredSource {
   std::int64_t id = 0;
   SourceFile file;
   std::size_t motions = 0;  ///< mirror images included
-  std::vector<Rejection> rejections;
+  std::vector<StoredRejection> rejections;
 };
 
 }  // namespace reachcast

@@ -66,7 +66,7 @@ struct Rejection {
 };
 
 /// Something that happens to the object at a frame.
-struct Event {
+struct ObjectEvent {
   std::string name;  ///< "grasp", "lift-off", "placed" or "release"
   std::size_t frame = 0;
 };
@@ -75,7 +75,7 @@ struct FoundReaches {
   std::vector<Reach> reaches;      ///< in order of time
   std::vector<FrameRange> frames;  ///< of each reach, in the same order
   std::vector<Rejection> rejections;
-  std::vector<Event> events;  ///< in order of time
+  std::vector<ObjectEvent> events;  ///< in order of time
 };
 
 /// Throws std::invalid_argument for a clip that is not canonical, a stature outside 0.5 to 2.6 m, an object with

@@ -27,7 +27,7 @@ struct PhaseLabel {
   std::optional<double> start_s, end_s;    ///< seconds from its first frame; both or neither
   /// A point of the recording if it has one of this name, else a word for people.
   std::optional<std::string> object;
-  std::vector<Event> events;  ///< in order of time
+  std::vector<ObjectEvent> events;  ///< in order of time
 
   /// The frames of the phase; seconds are rounded to the nearest frame. Throws std::invalid_argument naming the row
   /// when they do not lie within the clip.
