@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .bvh_document import BvhJoint, bvh_document
+
 _TO_Y_UP = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
 #: Parts of stature from the last joint up to the crown of the head and down to the sole (Drillis & Contini 1966).
 _BEYOND = {"nasion": 0.064, "ball": -0.02}
@@ -51,40 +53,14 @@ def bvh_text(names: Sequence[str], positions: np.ndarray, rate: float, stature: 
     at["chest"] = at["l5s1"]
     rest = _rest_pose(at)
     turns = _turns(at, rest)
-    order = _depth_first(_SKELETON[0])
-    columns = [at["l5s1"] @ _TO_Y_UP.T]
-    for node in order:
-        turn = turns[node.joint]
-        columns.append(_zxy_degrees(turn if node.parent is None else np.swapaxes(turns[node.parent], 1, 2) @ turn))
-    lines = ["HIERARCHY"]
-    _write_joint(lines, _SKELETON[0], rest, stature, 0)
-    lines += ["MOTION", f"Frames: {len(positions)}", f"Frame Time: {1.0 / rate:.9f}"]
-    lines += [" ".join(f"{value:.6f}" for value in row) for row in np.concatenate(columns, axis=1)]
-    return "\n".join(lines) + "\n"
-
-
-def _children(node: _Node) -> list[_Node]:
-    return [child for child in _SKELETON if child.parent == node.joint]
-
-
-def _depth_first(node: _Node) -> list[_Node]:
-    return [node] + [below for child in _children(node) for below in _depth_first(child)]
-
-
-def _write_joint(lines: list[str], node: _Node, rest: dict[str, np.ndarray], stature: float, depth: int) -> None:
-    indent = "  " * depth
-    offset = _TO_Y_UP @ (rest[node.joint] - rest[node.parent]) if node.parent else np.zeros(3)
-    moves = "" if node.parent else "Xposition Yposition Zposition "
-    lines += [f"{indent}{'JOINT' if node.parent else 'ROOT'} {node.joint}", indent + "{",
-              f"{indent}  OFFSET " + " ".join(f"{value:.6f}" for value in offset),
-              f"{indent}  CHANNELS {3 if node.parent else 6} {moves}Zrotation Xrotation Yrotation"]
-    children = _children(node)
-    for child in children:
-        _write_joint(lines, child, rest, stature, depth + 1)
-    if not children:
-        up = stature * _BEYOND.get(node.joint.split("_")[-1], 0.0)
-        lines += [f"{indent}  End Site", indent + "  {", f"{indent}    OFFSET 0.000000 {up:.6f} 0.000000", indent + "  }"]
-    lines.append(indent + "}")
+    number = {node.joint: place for place, node in enumerate(_SKELETON)}
+    joints = []
+    for node in _SKELETON:
+        offset = rest[node.joint] - rest[node.parent] if node.parent else np.zeros(3)
+        end = stature * _BEYOND.get(node.joint.split("_")[-1], 0.0) * _UP
+        joints.append(BvhJoint(node.joint, number[node.parent] if node.parent else None, _TO_Y_UP @ offset,
+                               _TO_Y_UP @ end, _TO_Y_UP @ turns[node.joint] @ _TO_Y_UP.T))
+    return bvh_document(joints, at["l5s1"] @ _TO_Y_UP.T, rate)
 
 
 def _rest_pose(at: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -154,12 +130,3 @@ def _smallest_turn(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     x, y, z = normal.T
     cross = np.stack([np.zeros_like(x), -z, y, z, np.zeros_like(x), -x, -y, x, np.zeros_like(x)], -1).reshape(-1, 3, 3)
     return np.eye(3) + cross + cross @ cross / (1.0 + cosine)[:, None, None]
-
-
-def _zxy_degrees(turns: np.ndarray) -> np.ndarray:
-    """(frames, 3): angles about z, x and y of the y-up file, R = Rz Rx Ry, without jumps of a whole turn."""
-    r = _TO_Y_UP @ turns @ _TO_Y_UP.T
-    x = np.arcsin(np.clip(r[:, 2, 1], -1.0, 1.0))
-    z = np.arctan2(-r[:, 0, 1], r[:, 1, 1])
-    y = np.arctan2(-r[:, 2, 0], r[:, 2, 2])
-    return np.degrees(np.unwrap(np.stack([z, x, y], axis=1), axis=0))
