@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 import os
 import random
 import shutil
@@ -100,6 +101,16 @@ class Rows(Batch):
         rig.name, box.location = "Anna", (0.0, 0.42, 0.1)
         bpy.context.view_layer.update()
         self.run_rows({"id": "a", "rig": "Anna", "object": "Carton", "target": TARGET},
+                      {"id": "b", "stature": 1.7, "object": "0.36x0.28x0.24", "home": [0, 0.42, 0.1, 0], "target": TARGET})
+        one, other = (self.clip(name).positions for name in "ab")
+        np.testing.assert_allclose(one, other, atol=2 * CSV_M)
+
+    def test_a_mesh_that_lies_on_its_side_starts_where_it_lies(self) -> None:
+        box = cuboid("Chest", (0.36, 0.24, 0.28))
+        box.rotation_euler.x = math.radians(90.0)  # what was its height now points to the worker
+        box.location = (0.0, 0.42 + 0.14, 0.1 + 0.12)
+        bpy.context.view_layer.update()
+        self.run_rows({"id": "a", "stature": 1.7, "object": "Chest", "target": TARGET},
                       {"id": "b", "stature": 1.7, "object": "0.36x0.28x0.24", "home": [0, 0.42, 0.1, 0], "target": TARGET})
         one, other = (self.clip(name).positions for name in "ab")
         np.testing.assert_allclose(one, other, atol=2 * CSV_M)

@@ -20,13 +20,15 @@ from .properties import needs
 _LABELS = 0.3  #: part of the panel's width that the words take
 
 
-class _Tab:
+class Tab:
+    """Where all panels of the add-on are."""
+
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Reachcast"
 
 
-class REACHCAST_PT_lift(_Tab, bpy.types.Panel):
+class REACHCAST_PT_lift(Tab, bpy.types.Panel):
     bl_label = "Lift to Shelf"
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -61,7 +63,7 @@ class REACHCAST_PT_lift(_Tab, bpy.types.Panel):
             lines(self.layout, context, f"Ready: starts at frame {context.scene.frame_current}.", "CHECKMARK")
 
 
-class REACHCAST_PT_subject(_Tab, bpy.types.Panel):
+class REACHCAST_PT_subject(Tab, bpy.types.Panel):
     bl_label = "Person"
     bl_parent_id = "REACHCAST_PT_lift"
 
@@ -80,7 +82,7 @@ class REACHCAST_PT_subject(_Tab, bpy.types.Panel):
         _sentence_part(column, settings, "Bones", "bone_map")
 
 
-class REACHCAST_PT_output(_Tab, bpy.types.Panel):
+class REACHCAST_PT_output(Tab, bpy.types.Panel):
     bl_label = "Output"
     bl_parent_id = "REACHCAST_PT_lift"
     bl_options = {"DEFAULT_CLOSED"}
@@ -92,7 +94,7 @@ class REACHCAST_PT_output(_Tab, bpy.types.Panel):
         column.prop(settings, "assets", text="Actions as assets")
 
 
-class REACHCAST_PT_hand_path(_Tab, bpy.types.Panel):
+class REACHCAST_PT_hand_path(Tab, bpy.types.Panel):
     bl_label = "Hand Path"
     bl_parent_id = "REACHCAST_PT_lift"
     bl_options = {"DEFAULT_CLOSED"}
@@ -105,11 +107,11 @@ class REACHCAST_PT_hand_path(_Tab, bpy.types.Panel):
             column.operator(REACHCAST_OT_edit_hand_path.bl_idname, text="Edit Empty Hands Too").all_phases = True
             return
         lines(self.layout, context, f"Move the handles of {', '.join(session.curves.values())} in Edit Mode, or the "
-                                     f"ends: '{session.result.action}' follows.", "CURVE_BEZCURVE")
+                                    f"ends: '{session.result.action}' follows.", "CURVE_BEZCURVE")
         self.layout.operator(REACHCAST_OT_finish_hand_path.bl_idname, icon="CHECKMARK")
 
 
-class REACHCAST_PT_variants(_Tab, bpy.types.Panel):
+class REACHCAST_PT_variants(Tab, bpy.types.Panel):
     bl_label = "Variants"
     bl_parent_id = "REACHCAST_PT_lift"
     bl_options = {"DEFAULT_CLOSED"}
@@ -126,7 +128,7 @@ class REACHCAST_PT_variants(_Tab, bpy.types.Panel):
         self.layout.operator(REACHCAST_OT_predict_variants.bl_idname, icon="MOD_ARRAY")
 
 
-class REACHCAST_PT_others(_Tab, bpy.types.Panel):
+class REACHCAST_PT_others(Tab, bpy.types.Panel):
     bl_label = "Several at Once"
     bl_parent_id = "REACHCAST_PT_lift"
     bl_options = {"DEFAULT_CLOSED"}
@@ -137,7 +139,7 @@ class REACHCAST_PT_others(_Tab, bpy.types.Panel):
         column.operator(REACHCAST_OT_predict_targets.bl_idname, icon="EMPTY_AXIS")
 
 
-class REACHCAST_PT_result(_Tab, bpy.types.Panel):
+class REACHCAST_PT_result(Tab, bpy.types.Panel):
     bl_label = "Last Result"
     bl_parent_id = "REACHCAST_PT_lift"
 

@@ -7,7 +7,7 @@ import bpy
 from .corpus_settings import MOST_LISTED
 from .operators.corpus_motions import (REACHCAST_OT_forget_motion, REACHCAST_OT_list_motions, REACHCAST_OT_play_motion)
 from .operators.import_motions import REACHCAST_OT_capture_motion, REACHCAST_OT_import_motions
-from .panels import lines
+from .panels import Tab, lines
 
 
 class REACHCAST_UL_motions(bpy.types.UIList):
@@ -20,11 +20,8 @@ class REACHCAST_UL_motions(bpy.types.UIList):
         split.label(text=item.duration)
 
 
-class REACHCAST_PT_corpus(bpy.types.Panel):
+class REACHCAST_PT_corpus(Tab, bpy.types.Panel):
     bl_label = "Corpus"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Reachcast"
     bl_parent_id = "REACHCAST_PT_lift"
     bl_options = {"DEFAULT_CLOSED"}
 

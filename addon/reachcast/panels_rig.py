@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from .operators import bone_maps
+from .panels import Tab
 from .rigs.bone_map import OPTIONAL, PARENTS
 from .rigs.rig_presets import closest, detect
 from .scene.map_editing import lacking
@@ -21,11 +22,8 @@ def has_controls(rig: bpy.types.Object | None) -> bool:
         return False
 
 
-class REACHCAST_PT_control_rig(bpy.types.Panel):
+class REACHCAST_PT_control_rig(Tab, bpy.types.Panel):
     bl_label = "Control Rig"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Reachcast"
     bl_parent_id = "REACHCAST_PT_lift"
 
     @classmethod
@@ -40,11 +38,8 @@ class REACHCAST_PT_control_rig(bpy.types.Panel):
             split.row().prop(rig, name, expand=True)
 
 
-class REACHCAST_PT_bone_map(bpy.types.Panel):
+class REACHCAST_PT_bone_map(Tab, bpy.types.Panel):
     bl_label = "Bone Map"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Reachcast"
     bl_parent_id = "REACHCAST_PT_lift"
     bl_options = {"DEFAULT_CLOSED"}
 

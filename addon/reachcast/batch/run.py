@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import errno
-import functools
-import hashlib
 import os
 import shutil
-import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import bpy
 import numpy as np
 
 from .. import native
 from ..corpora import default_corpus, opened_corpus
+from ..reachcast_corpus.recordings import checksum_of
 from ..rigs.joints import INDEX
 from ..scene.prepare import Solved, solve
 from ..scene.predict_action import correction_in_words
@@ -122,12 +119,9 @@ def _world(corpus: str) -> str:
     return f"{VERSION} {_digest(corpus)} {scene} {rate:g} {bpy.app.version_string}"
 
 
-@functools.lru_cache(maxsize=8)
 def _digest(path: str) -> str:
     try:
-        with open(path, "rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest() if sys.version_info >= (3, 11) else \
-                hashlib.sha256(file.read()).hexdigest()
+        return checksum_of(Path(path))
     except OSError as error:
         raise ValueError(f"The file '{path}' cannot be read: {error.strerror}") from error
 
@@ -153,12 +147,8 @@ def _by_person(units: Sequence[Unit]) -> Callable[[Unit], int]:
 
 
 def _empty(folder: Path) -> None:
-    for item in _items(folder):
+    for item in list(folder.iterdir()):
         shutil.rmtree(item) if item.is_dir() else item.unlink()
-
-
-def _items(folder: Path) -> Iterator[Any]:
-    return iter(list(folder.iterdir()))
 
 
 def _progress(number: int, count: int, seconds: float) -> str:

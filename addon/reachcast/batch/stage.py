@@ -17,7 +17,7 @@ from ..rigs.skeleton import Skeleton
 from ..scene.mannequin import build_mannequin
 from ..scene.prepare import Prepared, refuse_owners
 from ..scene.read_rig import read_rig
-from ..scene.read_task import BOX_MASS, BoxShape, lift_between, read_box
+from ..scene.read_task import BOX_MASS, BoxShape, lift_between, read_box, standing
 from ..scene.transforms import Placement, placement
 from .tasks import Task, Unit
 
@@ -60,8 +60,10 @@ class Stage:
         skeleton = worker.skeleton
         if task.rig is not None or isinstance(task.object, str):
             self._refuse_unwritable(worker, load)
-        home = self._placed(task.home, skeleton) if task.home is not None else \
-            self._standing(load) if isinstance(task.object, str) else None
+        if task.home is not None:
+            home = self._placed(task.home, skeleton)
+        else:
+            home = standing(load.box, load.shape) if isinstance(task.object, str) else None
         lift = lift_between(skeleton, load.shape, home, self._placed(task.target, skeleton),
                             stands=task.home is None)
         subject = native.core().Subject(task.stature or skeleton.height, sex=task.sex, age=task.age, mass=task.mass)
@@ -104,10 +106,6 @@ class Stage:
                 shape = read_box(box)
             self._loads[key] = Load(box, shape)
         return self._loads[key]
-
-    def _standing(self, load: Load) -> Placement:
-        place = placement(load.box)
-        return Placement(place.origin - place.rotation @ np.array(load.shape.origin_offset), place.rotation, place.scale)
 
     def _placed(self, place: tuple[float, ...] | str, skeleton: Skeleton) -> Placement:
         """Numbers without a turn face the worker's feet."""

@@ -42,11 +42,10 @@ class Store:
 
     def close(self) -> None:
         shutil.rmtree(self.own, ignore_errors=True)
-        for empty in (self.drafts,):
-            try:
-                empty.rmdir()
-            except OSError:
-                pass  # another process works there
+        try:
+            self.drafts.rmdir()
+        except OSError:
+            pass  # another process works there
 
     def result(self, unit: Unit) -> dict[str, object] | None:
         """What is finished under this unit's id, whatever it was made of."""

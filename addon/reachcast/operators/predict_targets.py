@@ -11,9 +11,9 @@ from .predict_motion import problem_of, task_of
 
 def _shelves(context: bpy.types.Context) -> list[bpy.types.Object]:
     settings = context.scene.reachcast
+    others = {settings.home, settings.handle_left, settings.handle_right}
     return sorted((item for item in context.selected_objects
-                   if item.type == "EMPTY" and HOLD not in item
-                   and item not in {settings.home, settings.handle_left, settings.handle_right}), key=lambda item: item.name)
+                   if item.type == "EMPTY" and HOLD not in item and item not in others), key=lambda item: item.name)
 
 
 class REACHCAST_OT_predict_targets(bpy.types.Operator):

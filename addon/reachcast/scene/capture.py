@@ -14,6 +14,7 @@ from ..reachcast_corpus.importing import FileReport
 from ..reachcast_corpus.recordings import ReadingOptions, settings_of
 from ..rigs.joints import INDEX, JOINTS, SIDES
 from ..rigs.rotations import Array
+from ..rigs.skeleton import Skeleton
 from .measure import sample
 from .read_rig import read_rig
 from .transforms import layer_of
@@ -28,9 +29,12 @@ def captured_clip(rig: bpy.types.Object, first: int, last: int, *, bone_map: obj
     """A reachcast_core.Clip of the joint centres in the frames first to last as the scene evaluates them: metres,
     world, at the scene's frame rate. ValueError names what is wrong with rig or frames."""
     scene = scene or bpy.context.scene
+    return _captured(rig, read_rig(rig, bone_map, layer_of(scene)), first, last, scene)
+
+
+def _captured(rig: bpy.types.Object, skeleton: Skeleton, first: int, last: int, scene: bpy.types.Scene) -> Any:
     if last - first < 3:
         raise ValueError(f"Frames {first} to {last} are {max(0, last - first + 1)}; a recording has at least 4")
-    skeleton = read_rig(rig, bone_map, layer_of(scene))
     joints = with_human_hands(sample(rig, skeleton, range(first, last + 1), scene=scene).joints)
     return native.core().Clip(list(JOINTS), np.ascontiguousarray(joints), scene.render.fps / scene.render.fps_base,
                               _name_of(rig))
@@ -59,10 +63,11 @@ def capture_motion(rig: bpy.types.Object, corpus: Any, first: int, last: int, *,
     phase: the frames are this one phase; None finds the phases. Without a stature in the options the rig's own height
     is the person's. The same motion again changes nothing. ValueError and RuntimeError in one sentence.
     """
-    core = native.core()
-    clip = captured_clip(rig, first, last, bone_map=bone_map, scene=scene)
+    core, scene = native.core(), scene or bpy.context.scene
+    skeleton = read_rig(rig, bone_map, layer_of(scene))
+    clip = _captured(rig, skeleton, first, last, scene)
     if options.stature is None:
-        options = replace(options, stature=float(read_rig(rig, bone_map).height))
+        options = replace(options, stature=float(skeleton.height))
     data = np.asarray(clip.positions).astype("<f8").tobytes()
     digest = hashlib.sha256(data).hexdigest()
     settings = settings_of(options, [phase] if phase else [])

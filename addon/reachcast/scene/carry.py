@@ -43,10 +43,12 @@ def carried_channels(box: bpy.types.Object, rig: bpy.types.Object, above: Array,
     steps = sorted({0, *(frame for span in spans for frame in span if frame is not None)})
     held = np.array([any(start <= step and (end is None or step < end) for start, end in spans) for step in steps])
     half = np.diag([-1.0, -1.0, 1.0]) if lift.half_turn else np.eye(3)
-    origins = box_origins(lift, solved.places)[steps] + (0.0 if aside is None else aside)
-    turns = box_turns(lift, solved.places)[steps]
-    origins[held] = half @ np.array(lift.box.origin_offset) - [0.0, 0.0, lift.box.handle_height]
-    turns[held] = half @ np.array(lift.box.turn)
+    offset, turn = half @ np.array(lift.box.origin_offset), half @ np.array(lift.box.turn)
+    bases, frames = (values[steps] for values in solved.places)
+    origins = bases + frames @ offset + (0.0 if aside is None else aside)
+    turns = frames @ turn
+    origins[held] = offset - [0.0, 0.0, lift.box.handle_height]
+    turns[held] = turn
     channels = box_channels(box, above, origins, turns, tuple(steps))
     for constraint in filter(is_carrier, box.constraints):
         own = rig_of_hold(constraint.target) == rig
@@ -65,18 +67,6 @@ def held_spans(motion: object) -> list[tuple[int, int | None]]:
         elif event.startswith("release") and spans:
             spans[-1] = (spans[-1][0], frame)
     return spans
-
-
-def box_turns(lift: Lift, places: tuple[Array, Array]) -> Array:
-    """(F, 3, 3) world turns of the box's mesh."""
-    frames = places[1] * np.array([-1.0, -1.0, 1.0]) if lift.half_turn else places[1]
-    return frames @ np.array(lift.box.turn)
-
-
-def box_origins(lift: Lift, places: tuple[Array, Array]) -> Array:
-    """(F, 3) world places of the origin of the box's mesh."""
-    frames = places[1] * np.array([-1.0, -1.0, 1.0]) if lift.half_turn else places[1]
-    return places[0] + frames @ np.array(lift.box.origin_offset)
 
 
 def ready_carrier(box: bpy.types.Object, rig: bpy.types.Object, skeleton: Skeleton) -> bpy.types.Constraint:

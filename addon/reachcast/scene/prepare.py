@@ -96,7 +96,7 @@ def solve(prepared: Prepared, **options: object) -> Solved:
 
 
 def refuse_owners(rig: bpy.types.Object, skeleton: Skeleton, box: bpy.types.Object | None,
-                   layer: bpy.types.ViewLayer) -> None:
+                  layer: bpy.types.ViewLayer) -> None:
     """ValueError when an Action on the rig or the box cannot be written or would not be all that moves it."""
     keyed = frozenset(plan_of(rig).bones if is_control_rig(skeleton) else
                       [skeleton.bones.names[bone] for bone in skeleton.keyed])

@@ -64,28 +64,22 @@ def read_lift(skeleton: Skeleton, shelf: bpy.types.Object, home: bpy.types.Objec
         raise ValueError(f"The home must be an object (an Empty where the box starts) or None, not {described(home)}")
     shape = read_box(box, layer, handles) if box is not None else _default_box()
     target = placement(shelf, layer)
-    target_yaw, _ = _half_turns(_yaw(skeleton, target.rotation))
     if home is not None:
-        start = placement(home, layer)
-        place, rotation = start.origin - start.rotation @ np.array([*shape.middle, 0.0]), start.rotation
-    elif box is not None:
-        start = placement(box, layer)
-        rotation = start.rotation @ np.array(shape.turn).T
-        place = start.origin - rotation @ np.array(shape.origin_offset)
-        if np.linalg.norm(place + rotation @ np.array([*shape.middle, 0.0]) - target.origin) < LEAST_WAY_M:
-            raise ValueError(f"Box '{box.name}' already stands on '{shelf.name}'; go to a frame in which it stands "
-                             f"where it is to start, or choose a home")
-    else:
-        return Lift(_in_front(skeleton, shape), _placed(skeleton, target.origin), 0.0, target_yaw, shape, False)
-    home_yaw, half_turn = _half_turns(_yaw(skeleton, rotation))
-    there = beneath_grips(target_yaw, shape, half_turn)
-    return Lift(_placed(skeleton, place), _placed(skeleton, target.origin) - there, home_yaw, target_yaw, shape, half_turn)
+        return lift_between(skeleton, shape, placement(home, layer), target)
+    if box is None:
+        return lift_between(skeleton, shape, None, target)
+    start = standing(box, shape, layer)
+    middle = start.origin + start.rotation @ np.array([*shape.middle, 0.0])
+    if np.linalg.norm(middle - target.origin) < LEAST_WAY_M:
+        raise ValueError(f"Box '{box.name}' already stands on '{shelf.name}'; go to a frame in which it stands where it "
+                         f"is to start, or choose a home")
+    return lift_between(skeleton, shape, start, target, stands=True)
 
 
 def lift_between(skeleton: Skeleton, shape: BoxShape, home: Placement | None, target: Placement,
                  stands: bool = False) -> Lift:
     """The task from world placements of the middle of the box's base at home (None: in front of the body at waist
-    height, square to it) and at its end. stands: home is beneath the grips instead, as a mesh's offset leads there."""
+    height, square to it) and at its end. stands: home is beneath the grips instead, as `standing` has it."""
     target_yaw, _ = _half_turns(_yaw(skeleton, target.rotation))
     end = _placed(skeleton, target.origin)
     if home is None:
@@ -95,6 +89,13 @@ def lift_between(skeleton: Skeleton, shape: BoxShape, home: Placement | None, ta
     if not stands:
         start = start - beneath_grips(home_yaw, shape, half_turn)
     return Lift(start, end - beneath_grips(target_yaw, shape, half_turn), home_yaw, target_yaw, shape, half_turn)
+
+
+def standing(box: bpy.types.Object, shape: BoxShape, layer: bpy.types.ViewLayer | None = None) -> Placement:
+    """Where the frame of the shape of a mesh is in the world: beneath its grips, upright."""
+    place = placement(box, layer)
+    rotation = place.rotation @ np.array(shape.turn).T
+    return Placement(place.origin - rotation @ np.array(shape.origin_offset), rotation, place.scale)
 
 
 def place_of(skeleton: Skeleton, item: bpy.types.Object, lift: Lift,

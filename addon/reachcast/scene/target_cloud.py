@@ -13,12 +13,13 @@ _COLOUR = (1.0, 0.55, 0.1, 0.9)
 _SIZE_PX = 5.0
 _handle: Any = None
 _points: Array = np.zeros((0, 3))
+_batch: Any = None    #: of the points, once they have been drawn
 
 
 def set_points(points: Array) -> None:
     """(N, 3) world. What is drawn while the points are shown."""
-    global _points
-    _points = np.asarray(points, dtype=np.float32)
+    global _points, _batch
+    _points, _batch = np.asarray(points, dtype=np.float32), None
 
 
 def is_shown() -> bool:
@@ -39,6 +40,7 @@ def show(wanted: bool, context: bpy.types.Context | None = None) -> None:
 
 
 def _draw() -> None:
+    global _batch
     import gpu
     from gpu_extras.batch import batch_for_shader
 
@@ -46,11 +48,12 @@ def _draw() -> None:
         return
     # Blender 4.0 named the built-in shaders anew.
     shader = gpu.shader.from_builtin("UNIFORM_COLOR" if bpy.app.version >= (4, 0) else "3D_UNIFORM_COLOR")
-    batch = batch_for_shader(shader, "POINTS", {"pos": [tuple(map(float, point)) for point in _points]})
+    if _batch is None:
+        _batch = batch_for_shader(shader, "POINTS", {"pos": _points.tolist()})
     gpu.state.point_size_set(_SIZE_PX)
     gpu.state.blend_set("ALPHA")
     shader.bind()
     shader.uniform_float("color", _COLOUR)
-    batch.draw(shader)
+    _batch.draw(shader)
     gpu.state.blend_set("NONE")
     gpu.state.point_size_set(1.0)
