@@ -6,40 +6,16 @@ Recordings are looked for in $REACHCAST_MOCAP, else in ../shared/mocap beside th
 """
 
 import csv
-import json
 import math
-import os
 import struct
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from mocap_cases import files_in, need, need_file, rc
 
-PROJECT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, os.environ.get("REACHCAST_MODULE_DIR", str(PROJECT / "addon" / "reachcast")))
-rc = pytest.importorskip("reachcast_core", reason="reachcast_core is not built for this Python")
-
-MOCAP = Path(os.environ.get("REACHCAST_MOCAP", PROJECT.parent / "shared" / "mocap"))
 # Joint centres agree to rounding: about ten products of rotations, relative to the farthest coordinate.
 RELATIVE = 1e-9
 MOST_FRAMES = 60  # per file; matrices in Python are slow
-
-
-def need(folder):
-    if not (MOCAP / folder).is_dir():
-        pytest.skip(f"recordings are missing: {MOCAP / folder}")
-    return MOCAP / folder
-
-
-def files_in(folder, pattern):
-    """For parametrize: the files, or one that skips with a message."""
-    return sorted((MOCAP / folder).glob(pattern)) or [MOCAP / folder / "missing"]
-
-
-def need_file(path):
-    if not path.exists():
-        pytest.skip(f"recordings are missing: {path}")
 
 
 # ---------------------------------------------------------------- BVH, the slow and plain way
@@ -304,103 +280,3 @@ def test_wrong_unit_in_the_file_is_noticed(tmp_path):
     clip = rc.read_motion(str(wrong))
     assert (clip.guess.unit, clip.guess.unit_from) == ("millimetres", "data")
     assert "The file states metres, but the person would be 17" in clip.note
-
-
-def test_joint_map_from_dict_and_json(tmp_path):
-    path = need("c3d_trc") / "motion_capture_walk.trc"
-    recorded = rc.read_motion(str(path))
-    sides = {"left": "L", "right": "R"}
-    names = {"ankle": "Ankle", "knee": "Knee", "hip": "ASIS", "shoulder": "Shoulder", "elbow": "Elbow", "wrist": "Wrist"}
-    plain = {f"{side}_{joint}": f"{s}.{name}" for side, s in sides.items() for joint, name in names.items()}
-    moved = dict(plain)
-    moved["left_hip"] = {"points": "L.ASIS+R.ASIS", "offset": [-0.36, 0, 0], "scale": "L.ASIS>R.ASIS", "across": "L.ASIS>R.ASIS"}
-    moved["left_ankle"] = [{"points": ["no such marker"]}, {"points": ["L.Ankle", "L.Heel"]}]
-    file = tmp_path / "map.json"
-    file.write_text(json.dumps(moved))
-    clip = rc.canonical(recorded, moved)
-    np.testing.assert_array_equal(clip.positions, rc.canonical(recorded, str(file)).positions)
-    point = dict(zip(recorded.names, np.moveaxis(recorded.positions, 1, 0)))
-    joint = dict(zip(clip.names, np.moveaxis(clip.positions, 1, 0)))
-    np.testing.assert_allclose(joint["left_ankle"], (point["L.Ankle"] + point["L.Heel"]) / 2, atol=1e-12)
-    across = point["R.ASIS"] - point["L.ASIS"]
-    width = np.linalg.norm(across, axis=1)
-    expected = (point["L.ASIS"] + point["R.ASIS"]) / 2 - 0.36 * np.median(width) * across / width[:, None]
-    np.testing.assert_allclose(joint["left_hip"], expected, atol=2e-4)  # the upper of two medians
-    with pytest.raises(ValueError, match="not 'shift'"):
-        rc.canonical(recorded, {**plain, "left_hip": {"points": "L.ASIS", "shift": [0, 0, 1]}})
-    assert "plug-in gait" in rc.joint_map_names()
-
-
-def test_gaps_are_filled_and_marked():
-    recorded = rc.read_motion(str(need("c3d_trc") / "walkingOptiTrack.c3d"))
-    filled = rc.fill_gaps(recorded, limit_s=0.2)
-    was_missing = np.isnan(recorded.positions[..., 0])
-    assert was_missing.any() and filled.filled.any() and not recorded.filled.any()
-    assert filled.guess.unit == "millimetres"
-    assert not (filled.filled & ~was_missing).any()
-    np.testing.assert_array_equal(filled.filled, was_missing & ~np.isnan(filled.positions[..., 0]))
-    for joint in range(was_missing.shape[1]):
-        runs, start = [], None
-        for frame, missing in enumerate([*was_missing[:, joint], False]):
-            if missing and start is None:
-                start = frame
-            elif not missing and start is not None:
-                runs.append((start, frame - 1))
-                start = None
-        for first, last in runs:
-            inside = first > 0 and last < len(was_missing) - 1
-            expected = inside and last - first + 1 <= 0.2 * recorded.rate
-            assert filled.filled[first : last + 1, joint].all() == expected
-            assert filled.filled[first : last + 1, joint].any() == expected
-
-
-def test_tracking_faults_are_listed():
-    clip = rc.canonical(rc.read_motion(str(need("omomo") / "sub3_largebox_003.csv")))
-    assert rc.check_tracking(clip) == []
-    points = clip.positions
-    points[20, clip.names.index("left_wrist")] += [0, 0, 0.5]
-    faults = rc.check_tracking(rc.Clip(clip.names, points, clip.rate))
-    assert {fault[:3] for fault in faults} == {("left_wrist", 20, 20)}
-    assert any("away and back" in fault[3] for fault in faults)
-
-
-# ---------------------------------------------------------------- from recording to reach
-
-
-def test_arrays_own_their_memory_and_errors_are_value_errors(tmp_path):
-    names = ["a", "b"]
-    given = np.arange(24.0).reshape(4, 2, 3)
-    clip = rc.Clip(names, given, 50.0)
-    clip.positions[:] = 0
-    np.testing.assert_array_equal(clip.positions, given)
-    with pytest.raises(ValueError, match="positions must have the shape"):
-        rc.Clip(["a"], given, 50.0)
-    with pytest.raises(ValueError, match="no known set of joint names"):
-        rc.canonical(clip)
-    with pytest.raises(ValueError, match=r"\.trc or \.amc"):
-        rc.read_motion(str(tmp_path / "walk.fbx"))
-
-
-def test_reach_starts_at_the_ankles_and_faces_forward():
-    clip = rc.canonical(rc.read_motion(str(need("omomo") / "sub3_largebox_003.csv")))
-    reach = rc.cut_reach(clip, 29, 52, rc.Subject(1.82), "transfer", "test", floor_z=0.0)
-    start = dict(zip(clip.names, reach.positions[0]))
-    ankles = (start["left_ankle"] + start["right_ankle"]) / 2
-    np.testing.assert_allclose(ankles[:2], 0, atol=1e-12)
-    assert start["right_hip"][0] > 0 > start["left_hip"][0]
-    assert reach.hold_points[0, 1] > 0.2, "the box stands in front"
-    assert reach.hold_points[-1, 2] - reach.hold_points[0, 2] > 0.6
-    for a, b in (("left_knee", "left_ankle"), ("right_elbow", "right_wrist")):
-        world = clip.positions[29:53, clip.names.index(a)] - clip.positions[29:53, clip.names.index(b)]
-        body = reach.positions[:, clip.names.index(a)] - reach.positions[:, clip.names.index(b)]
-        np.testing.assert_allclose(np.linalg.norm(body, axis=1), np.linalg.norm(world, axis=1), rtol=1e-12)
-
-
-def test_unknown_phase_and_map_name_the_known_ones():
-    clip = rc.canonical(rc.read_motion(str(need("omomo") / "sub3_largebox_003.csv")), "omomo")
-    with pytest.raises(ValueError, match="transfer, return, reach or retrieve, not 'lift'"):
-        rc.cut_reach(clip, 0, 20, rc.Subject(1.8), "lift")
-    with pytest.raises(ValueError, match="omomo, lieblich"):
-        rc.canonical(clip, "vicon")
-    with pytest.raises(ValueError, match="'left_paw' is not a canonical joint"):
-        rc.canonical(clip, {"left_paw": "L_Hand"})
