@@ -37,12 +37,12 @@ class REACHCAST_PT_lift(Tab, bpy.types.Panel):
         for words, name in (("Rig", "rig"), ("does", "errand"), ("with", "box"), ("from", "home"), ("to", "shelf"),
                             ("coming", "approach"), ("past", "obstacles"), ("as in", "corpus")):
             _sentence_part(column, settings, words, name)
-        if settings.box:
-            split = column.split(factor=_LABELS)
-            split.label(text="held at")
-            row = split.row(align=True)
-            row.prop(settings, "handle_left", text="")
-            row.prop(settings, "handle_right", text="")
+            if name == "box" and settings.box:
+                split = column.split(factor=_LABELS)
+                split.label(text="held at")
+                row = split.row(align=True)
+                row.prop(settings, "handle_left", text="")
+                row.prop(settings, "handle_right", text="")
         if not settings.corpus and default_corpus():
             _words(column, "", "simulated, ships with it")
         blocking = [need for need in needs(settings) if need.reason]
@@ -158,7 +158,7 @@ class REACHCAST_PT_result(Tab, bpy.types.Panel):
         for words, name in (("Landing", "landing"), ("Grip", "grip")):
             if (error := action.get(f"reachcast_{name}_error_m")) is not None:
                 _words(column, words, f"{error * 1000.0:.2f} mm off")
-        _words(column, "Hands' path", action["reachcast_ways"].replace(", ", "; "))
+        _words(column, "Path", action["reachcast_ways"].replace(", ", "; "))
         kind = action["reachcast_corpus_kind"]
         if action["reachcast_outside_data"]:
             why = action["reachcast_outside_reasons"] or "the target"
