@@ -6,11 +6,12 @@
 
 In Edit Mode a handle is grabbed (G) and dragged; the body must follow while the mouse moves. Writes path_before.png,
 path_dragged.png and variants.png, prints how often the body was solved, and quits; exit status 1 when something is not
-as it should be. Where OpenGL is software, drawing the window takes most of the time: --small leaves the 3D view alone and
-cheap to draw (give a small --window-geometry too), to measure and not to look at.
+as it should be. Where OpenGL is software, drawing the window takes most of the time: --small makes the window small and leaves
+the 3D view alone in it, cheap to draw: to measure and not to look at.
 """
 from __future__ import annotations
 
+import ctypes
 import os
 import sys
 import time
@@ -28,6 +29,7 @@ from test_panel_window import arguments, furnish, open_tab, picture, player, vie
 
 DRAG_S = 2.0
 STEP_PX = 2
+SMALL_PX = (240, 180)  #: Blender opens no window below 640 x 480, but takes any size that the display gives it
 
 
 def in_view() -> dict[str, object]:
@@ -49,9 +51,24 @@ def look_from_the_side() -> None:
         bpy.ops.view3d.view_all()
 
 
+def resize_windows(width: int, height: int) -> None:
+    """All windows of this display: under xvfb-run there is none but Blender's."""
+    x11 = ctypes.CDLL("libX11.so.6")
+    x11.XOpenDisplay.restype, x11.XDefaultRootWindow.restype = ctypes.c_void_p, ctypes.c_ulong
+    display = ctypes.c_void_p(x11.XOpenDisplay(None))
+    root = ctypes.c_ulong(x11.XDefaultRootWindow(display))
+    children, count, unused = ctypes.POINTER(ctypes.c_ulong)(), ctypes.c_uint(), ctypes.c_ulong()
+    x11.XQueryTree(display, root, ctypes.byref(unused), ctypes.byref(unused), ctypes.byref(children), ctypes.byref(count))
+    for window in children[:count.value]:
+        x11.XResizeWindow(display, ctypes.c_ulong(window), ctypes.c_uint(width), ctypes.c_uint(height))
+    x11.XCloseDisplay(display)
+
+
 def view_alone() -> Iterator[None]:
-    """The 3D view alone in the window and as cheap to draw as it gets: what is left is the path editing."""
+    """The 3D view alone in a small window and as cheap to draw as it gets: what is left is the path editing."""
     bpy.context.preferences.system.viewport_aa = "OFF"
+    resize_windows(*SMALL_PX)
+    yield
     with bpy.context.temp_override(**in_view()):
         bpy.ops.screen.screen_full_area(use_hide_panels=True)
     yield
@@ -60,6 +77,8 @@ def view_alone() -> Iterator[None]:
     space.overlay.show_overlays = space.shading.show_object_outline = space.show_gizmo = False
     space.show_region_ui = space.show_region_toolbar = space.show_region_header = space.show_region_tool_header = False
     yield
+    region = in_view()["region"]
+    assert (region.width, region.height) == SMALL_PX, f"the 3D view has {region.width} x {region.height} pixels"
 
 
 def story(options) -> Iterator[None]:  # type: ignore[no-untyped-def]

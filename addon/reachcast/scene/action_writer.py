@@ -40,12 +40,12 @@ def write_action(owner: bpy.types.Object, name: str, channels: Sequence[Channel]
     if owner.animation_data is None:
         owner.animation_data_create()
     curves, group_of = _curve_makers(owner, action)
-    for channel in channels:
+    for channel, columns in _keys(channels, first_frame):
         group = group_of(channel.group)
-        for index, values in _columns(channel):
+        for index, keys in enumerate(columns):
             curve = curves.new(channel.data_path, index=index)
             curve.group = group
-            _fill(curve, first_frame, values, channel.steps)
+            _fill(curve, keys, channel.steps is not None)
     _assign(owner, action)
     return action
 
@@ -63,25 +63,37 @@ def _assign(owner: bpy.types.Object, action: bpy.types.Action) -> None:
 def rewrite_action(action: bpy.types.Action, channels: Sequence[Channel], first_frame: int) -> None:
     """Other keys for the channels that `write_action` gave this Action; everything else in it stays."""
     curves = {(curve.data_path, curve.array_index): curve for curve in curves_of(action)}
-    for channel in channels:
-        for index, values in _columns(channel):
+    for channel, columns in _keys(channels, first_frame):
+        for index, keys in enumerate(columns):
             curve = curves.get((channel.data_path, index))
             if curve is None:
                 raise ValueError(f"Action '{action.name}' has lost its channel {channel.data_path}[{index}]; "
                                  f"predict the motion again")
-            if len(curve.keyframe_points) == len(values):
-                _place(curve, first_frame, values, channel.steps)
+            if 2 * len(curve.keyframe_points) == len(keys):
+                _place(curve, keys)
             else:
                 curve.keyframe_points.clear()
-                _fill(curve, first_frame, values, channel.steps)
+                _fill(curve, keys, channel.steps is not None)
     action.update_tag()
 
 
-def _columns(channel: Channel) -> Iterator[tuple[int, Array]]:
-    """(index, keys) of every column: one key for what does not change."""
-    moves = np.any(channel.values != channel.values[0], axis=0)
-    for index, values in enumerate(np.asarray(channel.values, np.float32).T):
-        yield index, values if moves[index] else values[:1]
+def _keys(channels: Sequence[Channel], first_frame: int) -> Iterator[tuple[Channel, list[Array]]]:
+    """For every channel its columns as frame, value, frame, value, ...: one key for what does not change."""
+    alike: dict[tuple[object, int], list[int]] = {}  # a rig has a hundred columns: numpy is called for all at once
+    for number, channel in enumerate(channels):
+        alike.setdefault((channel.steps, len(channel.values)), []).append(number)
+    columns: dict[int, list[Array]] = {}
+    for (steps, count), numbers in alike.items():
+        values = np.concatenate([channels[number].values for number in numbers], axis=1).T
+        moves = np.any(values != values[:, :1], axis=1).tolist()
+        keys = np.empty((len(values), count, 2), dtype=np.float32)
+        keys[:, :, 0] = first_frame + (np.arange(count) if steps is None else np.array(steps[:count]))
+        keys[:, :, 1] = values
+        flat = [row if moving else row[:2] for row, moving in zip(keys.reshape(len(values), -1), moves)]
+        for number in numbers:
+            width = channels[number].values.shape[1]
+            columns[number], flat = flat[:width], flat[width:]
+    return ((channel, columns[number]) for number, channel in enumerate(channels))
 
 
 def refuse_unwritable(owner: bpy.types.Object) -> None:
@@ -105,21 +117,18 @@ def curves_of(action: bpy.types.Action) -> Iterator[bpy.types.FCurve]:
     return (curve for bag in bags for curve in bag.fcurves if not curve.mute)
 
 
-def _fill(curve: bpy.types.FCurve, first_frame: int, values: Array, steps: tuple[int, ...] | None) -> None:
-    points = curve.keyframe_points
-    points.add(len(values))
+def _fill(curve: bpy.types.FCurve, keys: Array, stepped: bool) -> None:
+    points, count = curve.keyframe_points, len(keys) // 2
+    points.add(count)
     first = points[0]
-    for attribute, identifier in _KEY_STYLE if steps is None else _STEP_STYLE:
+    for attribute, identifier in _STEP_STYLE if stepped else _KEY_STYLE:
         if getattr(first, attribute) != identifier:  # new keys have the style of the user's preferences
-            points.foreach_set(attribute, _enum_values(attribute, identifier, len(values)))
-    _place(curve, first_frame, values, steps)
+            points.foreach_set(attribute, _enum_values(attribute, identifier, count))
+    _place(curve, keys)
 
 
-def _place(curve: bpy.types.FCurve, first_frame: int, values: Array, steps: tuple[int, ...] | None) -> None:
-    places = np.empty((len(values), 2), dtype=np.float32)
-    places[:, 0] = _frames(first_frame, len(values)) if steps is None else first_frame + np.array(steps[:len(values)])
-    places[:, 1] = values
-    curve.keyframe_points.foreach_set("co", places.ravel())
+def _place(curve: bpy.types.FCurve, keys: Array) -> None:
+    curve.keyframe_points.foreach_set("co", keys)
     curve.update()
 
 
@@ -135,11 +144,6 @@ def _curve_makers(owner: bpy.types.Object, action: bpy.types.Action):  # type: i
         return bag.groups.get(name) or bag.groups.new(name)
 
     return bag.fcurves, group_of
-
-
-@functools.lru_cache(maxsize=8)
-def _frames(first_frame: int, count: int) -> Array:
-    return np.arange(first_frame, first_frame + count, dtype=np.float32)
 
 
 @functools.lru_cache(maxsize=8)
