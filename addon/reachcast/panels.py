@@ -16,6 +16,7 @@ from .operators.predict_motion import REACHCAST_OT_predict_motion
 from .operators.predict_targets import REACHCAST_OT_predict_targets
 from .operators.predict_variants import REACHCAST_OT_predict_variants
 from .properties import needs
+from .scene.nla_strips import predicted_action
 
 _LABELS = 0.3  #: part of the panel's width that the words take
 
@@ -92,6 +93,7 @@ class REACHCAST_PT_output(Tab, bpy.types.Panel):
         column = self.layout.column(align=True)
         column.prop(settings, "markers", text="Markers on the timeline")
         column.prop(settings, "assets", text="Actions as assets")
+        column.prop(settings, "strips", text="Actions on NLA strips")
 
 
 class REACHCAST_PT_hand_path(Tab, bpy.types.Panel):
@@ -145,10 +147,10 @@ class REACHCAST_PT_result(Tab, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return _predicted_action(context) is not None
+        return predicted_action(context.scene.reachcast.rig) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
-        action = _predicted_action(context)
+        action = predicted_action(context.scene.reachcast.rig)
         if action is None:
             return
         column = self.layout.column(align=True)
@@ -169,12 +171,6 @@ class REACHCAST_PT_result(Tab, bpy.types.Panel):
         self.layout.operator(REACHCAST_OT_pose_ghosts.bl_idname, icon="GHOST_ENABLED")
         if action["reachcast_corrections"]:
             lines(self.layout, context, f"Corrected: {action['reachcast_corrections']}", "INFO")
-
-
-def _predicted_action(context: bpy.types.Context) -> bpy.types.Action | None:
-    rig = context.scene.reachcast.rig
-    action = rig.animation_data.action if rig and rig.animation_data else None
-    return action if action is not None and "reachcast_events" in action else None
 
 
 def _sentence_part(column: bpy.types.UILayout, settings: bpy.types.PropertyGroup, words: str, name: str) -> None:

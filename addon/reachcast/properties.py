@@ -102,6 +102,10 @@ class ReachcastSettings(bpy.types.PropertyGroup):
         description="Mark grasp, lift-off, placed and release on the timeline, in place of the rig's earlier markers")
     assets: bpy.props.BoolProperty(
         name="Assets", default=False, description="Mark the new Actions as assets, for the asset browser")
+    strips: bpy.props.BoolProperty(
+        name="Strips", default=False,
+        description="Put the new Actions on new NLA tracks above the others, as Push Down does, and leave no Action active. "
+                    "Of several the first plays and the others' tracks are muted")
     corpus: bpy.props.StringProperty(
         name="Corpus", subtype="FILE_PATH",
         description="The file of motions to learn from; empty takes the one that ships with the add-on, which is "
