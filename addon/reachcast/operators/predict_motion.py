@@ -6,10 +6,11 @@ from typing import Any
 
 import bpy
 
-from ..properties import ERRANDS, core_sex, missing
+from ..properties import ERRANDS, missing
 from ..scene.nla_strips import put_on_strips
 from ..scene.predict_action import PredictionResult, predict_motion
 from ..scene.publish import add_markers, mark_assets
+from ..subject_settings import core_sex
 
 
 class REACHCAST_OT_predict_motion(bpy.types.Operator):
@@ -63,6 +64,7 @@ def task_of(context: bpy.types.Context) -> dict[str, Any]:
     settings = context.scene.reachcast
     task = {"rig": settings.rig, "shelf": settings.shelf, "corpus": settings.corpus, "home": settings.home,
             "box": settings.box, "stature": settings.stature or None, "sex": core_sex(settings.sex),
+            "age": settings.age or None, "mass": settings.mass or None,
             "bone_map": settings.bone_map or None, "phases": ERRANDS[settings.errand],
             "obstacles": meshes_in(settings.obstacles), "scene": context.scene}
     if settings.handle_left and settings.handle_right:
