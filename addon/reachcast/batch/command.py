@@ -7,6 +7,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from .jobs import JobsFailed
 from .run import run_batch
 from .store import DiskFull
 from .tasks import OUTPUTS, PHASES
@@ -34,18 +35,21 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder of the results")
     parser.add_argument("--corpus", type=Path, help="motions to learn from; without it the corpus that ships")
     parser.add_argument("--part", default="1/1", metavar="I/N", help="do the I-th of N parts and write no results.csv")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="so many Blender processes at once")
     options = parser.parse_args(list(arguments))
     try:
         part = tuple(map(int, options.part.split("/")))
         if len(part) != 2:
             raise ValueError(f"--part is '{options.part}'; it must be like 2/8")
         found = run_batch(options.table, options.out, corpus=options.corpus, part=part,  # type: ignore[arg-type]
-                          collect=options.part == "1/1", say=lambda line: print(line, flush=True))
-    except (ValueError, DiskFull) as error:
+                          jobs=options.jobs, collect=options.part == "1/1", say=lambda line: print(line, flush=True))
+    except (ValueError, DiskFull, JobsFailed) as error:
         print(f"batch: {error}.", file=sys.stderr, flush=True)
         return 2
     said = ", ".join(f"{count} {status}" for status, count in found.counts.items())
     rate = found.worked / max(found.seconds["whole"], 1e-9)
+    if found.lost:
+        print(f"{found.lost} processes ended unexpectedly; others took their place", flush=True)
     print(f"{said or 'part done'}; {found.worked} made now in {found.seconds['whole']:.1f} s ({rate:.0f} a second): "
           f"predict {found.seconds['predict']:.1f} s, write {found.seconds['write']:.1f} s", flush=True)
     return 1 if set(found.counts) & {"failed", "missing"} else 0
