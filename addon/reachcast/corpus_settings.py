@@ -8,6 +8,7 @@ from typing import Any
 import bpy
 
 from .corpora import default_corpus
+from .preferences import length_text
 from .reachcast_corpus.listing import person_text
 from .scene import target_cloud
 
@@ -59,7 +60,7 @@ def fill(listing: MotionListing, corpus: Any) -> None:
         row.motion = motion.id
         origin = Path(motion.origin).name + (" (mirror image)" if motion.mirrored else "")
         row.name = f"{motion.id} {motion.phase} {origin}"
-        row.phase, row.place = motion.phase, f"{motion.target[2]:.2f} m"
+        row.phase, row.place = motion.phase, length_text(motion.target[2])
         row.duration = f"{motion.duration:.1f} s"
-        place = ", ".join(f"{value:.2f}" for value in motion.target)
-        row.words = f"Motion {motion.id}: {person_text(motion.subject)}, hands to ({place}) m, from {origin}"
+        place = ", ".join(map(length_text, motion.target))
+        row.words = f"Motion {motion.id}: {person_text(motion.subject)}, hands to ({place}), from {origin}"

@@ -8,6 +8,7 @@ import bpy
 
 from . import path_editing
 from .corpora import default_corpus
+from .operators.corpus_choice import REACHCAST_OT_choose_corpus
 from .operators.edit_hand_path import (REACHCAST_OT_edit_hand_path, REACHCAST_OT_finish_hand_path,
                                        REACHCAST_OT_follow_targets)
 from .operators.pose_ghosts import REACHCAST_OT_pose_ghosts
@@ -15,7 +16,9 @@ from .operators.predict_family import REACHCAST_OT_choose_percentile, REACHCAST_
 from .operators.predict_motion import REACHCAST_OT_predict_motion
 from .operators.predict_targets import REACHCAST_OT_predict_targets
 from .operators.predict_variants import REACHCAST_OT_predict_variants
+from .preferences import error_text, offered_corpora
 from .properties import needs
+from .scene.nla_strips import predicted_action
 
 _LABELS = 0.3  #: part of the panel's width that the words take
 
@@ -28,6 +31,20 @@ class Tab:
     bl_category = "Reachcast"
 
 
+class REACHCAST_MT_corpora(bpy.types.Menu):
+    bl_label = "Corpora"
+    bl_description = "Corpora in the folders that the preferences name"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        if default_corpus():
+            self.layout.operator(REACHCAST_OT_choose_corpus.bl_idname, text="Simulated, ships with it").path = ""
+        found = offered_corpora()
+        for path in found:
+            self.layout.operator(REACHCAST_OT_choose_corpus.bl_idname, text=path.stem).path = str(path)
+        if not found:
+            self.layout.label(text="Name folders in the add-on's preferences", icon="INFO")
+
+
 class REACHCAST_PT_lift(Tab, bpy.types.Panel):
     bl_label = "Lift to Shelf"
 
@@ -36,7 +53,9 @@ class REACHCAST_PT_lift(Tab, bpy.types.Panel):
         column = self.layout.column(align=True)
         for words, name in (("Rig", "rig"), ("does", "errand"), ("with", "box"), ("from", "home"), ("to", "shelf"),
                             ("coming", "approach"), ("past", "obstacles"), ("as in", "corpus")):
-            _sentence_part(column, settings, words, name)
+            row = _sentence_part(column, settings, words, name)
+            if name == "corpus":
+                row.menu(REACHCAST_MT_corpora.__name__, text="", icon="DOWNARROW_HLT")
             if name == "box" and settings.box:
                 split = column.split(factor=_LABELS)
                 split.label(text="held at")
@@ -74,6 +93,8 @@ class REACHCAST_PT_subject(Tab, bpy.types.Panel):
         if settings.stature == 0.0:
             _words(column, "", "the rig's own")
         _sentence_part(column, settings, "Sex", "sex")
+        _sentence_part(column, settings, "Age", "age")
+        _sentence_part(column, settings, "Mass", "mass")
         split = column.split(factor=_LABELS)
         split.label(text="Size")
         row = split.row(align=True)
@@ -92,6 +113,7 @@ class REACHCAST_PT_output(Tab, bpy.types.Panel):
         column = self.layout.column(align=True)
         column.prop(settings, "markers", text="Markers on the timeline")
         column.prop(settings, "assets", text="Actions as assets")
+        column.prop(settings, "strips", text="Actions on NLA strips")
 
 
 class REACHCAST_PT_hand_path(Tab, bpy.types.Panel):
@@ -145,10 +167,10 @@ class REACHCAST_PT_result(Tab, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return _predicted_action(context) is not None
+        return predicted_action(context.scene.reachcast.rig) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
-        action = _predicted_action(context)
+        action = predicted_action(context.scene.reachcast.rig)
         if action is None:
             return
         column = self.layout.column(align=True)
@@ -157,7 +179,7 @@ class REACHCAST_PT_result(Tab, bpy.types.Panel):
             _words(column, event.replace("_", " ").capitalize(), f"frame {action[event]}")
         for words, name in (("Landing", "landing"), ("Grip", "grip")):
             if (error := action.get(f"reachcast_{name}_error_m")) is not None:
-                _words(column, words, f"{error * 1000.0:.2f} mm off")
+                _words(column, words, f"{error_text(error)} off")
         _words(column, "Path", action["reachcast_ways"].replace(", ", "; "))
         kind = action["reachcast_corpus_kind"]
         if action["reachcast_outside_data"]:
@@ -171,16 +193,14 @@ class REACHCAST_PT_result(Tab, bpy.types.Panel):
             lines(self.layout, context, f"Corrected: {action['reachcast_corrections']}", "INFO")
 
 
-def _predicted_action(context: bpy.types.Context) -> bpy.types.Action | None:
-    rig = context.scene.reachcast.rig
-    action = rig.animation_data.action if rig and rig.animation_data else None
-    return action if action is not None and "reachcast_events" in action else None
-
-
-def _sentence_part(column: bpy.types.UILayout, settings: bpy.types.PropertyGroup, words: str, name: str) -> None:
+def _sentence_part(column: bpy.types.UILayout, settings: bpy.types.PropertyGroup, words: str,
+                   name: str) -> bpy.types.UILayout:
+    """Words and what is chosen for them; returns the row of the latter."""
     split = column.split(factor=_LABELS)
     split.label(text=words)
-    split.prop(settings, name, text="")
+    row = split.row(align=True)
+    row.prop(settings, name, text="")
+    return row
 
 
 def _words(column: bpy.types.UILayout, left: str, right: str) -> None:

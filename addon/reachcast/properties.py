@@ -12,6 +12,7 @@ from .corpora import default_corpus
 from .scene.control_rig import CHOICES
 from .scene.movers import HOLD
 from .scene.read_rig import recognise
+from .subject_settings import SubjectSettings
 
 #: The sentence of the last prediction that failed. On the WindowManager: neither saved nor undone.
 PROBLEM = bpy.props.StringProperty(name="Problem", options={"HIDDEN", "SKIP_SAVE"})
@@ -42,7 +43,7 @@ ERRANDS = {
 }
 
 
-class ReachcastSettings(bpy.types.PropertyGroup):
+class ReachcastSettings(SubjectSettings, bpy.types.PropertyGroup):
     rig: bpy.props.PointerProperty(
         name="Rig", type=bpy.types.Object, poll=_is_armature, description="The armature that carries the box")
     errand: bpy.props.EnumProperty(
@@ -102,6 +103,10 @@ class ReachcastSettings(bpy.types.PropertyGroup):
         description="Mark grasp, lift-off, placed and release on the timeline, in place of the rig's earlier markers")
     assets: bpy.props.BoolProperty(
         name="Assets", default=False, description="Mark the new Actions as assets, for the asset browser")
+    strips: bpy.props.BoolProperty(
+        name="Strips", default=False,
+        description="Put the new Actions on new NLA tracks above the others, as Push Down does, and leave no Action active. "
+                    "Of several the first plays and the others' tracks are muted")
     corpus: bpy.props.StringProperty(
         name="Corpus", subtype="FILE_PATH",
         description="The file of motions to learn from; empty takes the one that ships with the add-on, which is "
@@ -109,17 +114,7 @@ class ReachcastSettings(bpy.types.PropertyGroup):
     bone_map: bpy.props.StringProperty(
         name="Bone Map", subtype="FILE_PATH",
         description="A JSON file that says which bone is which; empty recognises the rigs of many tools by their names")
-    stature: bpy.props.FloatProperty(
-        name="Stature", min=0.0, max=2.6, default=0.0, subtype="DISTANCE", unit="LENGTH",
-        description="Height of the person to move like; 0 takes the rig's own")
-    sex: bpy.props.EnumProperty(
-        name="Sex", default="ANY", description="Whose motions count as similar",
-        items=(("ANY", "Any", "Do not tell"), ("FEMALE", "Female", ""), ("MALE", "Male", "")))
 
-
-def core_sex(identifier: str) -> str | None:
-    """The native module's word for an item of the sex property."""
-    return None if identifier == "ANY" else identifier.lower()
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import bpy
 
-from . import corpora, corpus_settings, panels, panels_corpus, panels_rig, path_editing, properties
-from .operators import (add_mannequin, bone_maps, corpus_motions, edit_hand_path, import_motions, pose_ghosts,
+from . import corpora, corpus_settings, panels, panels_corpus, panels_rig, path_editing, preferences, properties
+from .operators import (add_mannequin, bone_maps, corpus_choice, corpus_motions, edit_hand_path, import_motions, pose_ghosts,
                         predict_family, predict_motion, predict_targets, predict_variants)
 from .scene import map_editing, target_cloud
 
 CLASSES: tuple[type, ...] = (
+    preferences.CorpusFolder,
+    preferences.ReachcastPreferences,
     map_editing.SegmentBone,
     properties.ReachcastSettings,
     corpus_settings.ListedMotion,
@@ -30,7 +32,9 @@ CLASSES: tuple[type, ...] = (
     corpus_motions.REACHCAST_OT_forget_motion,
     import_motions.REACHCAST_OT_import_motions,
     import_motions.REACHCAST_OT_capture_motion,
+    *corpus_choice.CLASSES,
     panels_corpus.REACHCAST_UL_motions,
+    panels.REACHCAST_MT_corpora,
     panels.REACHCAST_PT_lift,
     panels.REACHCAST_PT_subject,
     panels_rig.REACHCAST_PT_control_rig,

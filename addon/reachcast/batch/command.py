@@ -10,7 +10,7 @@ from pathlib import Path
 from .jobs import JobsFailed
 from .run import run_batch
 from .store import DiskFull
-from .tasks import OUTPUTS, PHASES
+from .tasks import ENGINES, OUTPUTS, PHASES
 
 COLUMNS_HELP = f"""columns of the table (all but target may be missing or empty; JSON Lines has the same names as keys):
   id         names the result's folder; row-00001, ... where it is empty
@@ -22,15 +22,21 @@ COLUMNS_HELP = f"""columns of the table (all but target may be missing or empty;
   load       mass of the object, kg
   phases     any of {', '.join(PHASES)}, separated by blanks (transfer where empty)
   variants   so many motions drawn from seeds seed, seed + 1, ...; 0 or empty: the mean motion
-  outputs    any of {', '.join(OUTPUTS)}, separated by blanks (csv where empty)
+  outputs    any of {', '.join(OUTPUTS)}, separated by blanks (csv where empty); png: every frame, mp4: a film,
+             sheet: one picture of the key moments
+  engine     of the pictures: {', '.join(ENGINES)} (EEVEE where empty)
+  camera     one of the scene; empty: one that sees the whole motion, with floor and light if the scene has no camera
+  resolution of the pictures, width x height (640x480 where empty)
+  frame_step every so many frames is drawn (1 where empty)
 """
 
 
 def main(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="batch.py", formatter_class=argparse.RawDescriptionHelpFormatter, epilog=COLUMNS_HELP,
-        description="Does every task of a table, and writes DIR/tasks/ID/ for each and DIR/results.csv for all. A second "
-                    "start does what is not done yet or has changed. Exit status 1: some motions are missing or failed.")
+        description="Does every task of a table, and writes DIR/tasks/ID/ for each, DIR/results.csv for all and the "
+                    "gallery DIR/index.html. A second start does what is not done yet or has changed. Exit status 1: "
+                    "some motions are missing or failed.")
     parser.add_argument("table", type=Path, help="tasks.csv or tasks.jsonl")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder of the results")
     parser.add_argument("--corpus", type=Path, help="motions to learn from; without it the corpus that ships")

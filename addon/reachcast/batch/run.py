@@ -13,6 +13,7 @@ import bpy
 from .. import native
 from ..corpora import default_corpus, opened_corpus
 from ..reachcast_corpus.recordings import checksum_of
+from .gallery import write_gallery
 from .jobs import Order, run_jobs
 from .progress import Progress
 from .stage import Stage, person_of
@@ -34,7 +35,7 @@ class BatchResult:
 
 def run_batch(table: Path | str, out: Path | str, *, corpus: Path | str | None = None, part: tuple[int, int] = (1, 1),
               jobs: int = 1, collect: bool = True, say: Callable[[str], None] = print) -> BatchResult:
-    """Does every task of `table` that `out` does not hold yet, and writes `out`/results.csv.
+    """Does every task of `table` that `out` does not hold yet, and writes `out`/results.csv and its gallery.
 
     A task that cannot be done is a row with its reason; one that went wrong unexpectedly is tried again by the next
     run. part=(i, n) does the i-th of n parts only, as several machines would. jobs: so many processes of this Blender
@@ -62,6 +63,8 @@ def run_batch(table: Path | str, out: Path | str, *, corpus: Path | str | None =
             for unit, checksum in left:
                 progress.add(work(store, stage, unit, checksum))
         counts = store.write_results(units) if collect else {}
+        if collect:
+            write_gallery(store.out)
     except OSError as error:
         store.refuse_full(error)
         raise

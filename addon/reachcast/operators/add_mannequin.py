@@ -4,7 +4,8 @@ from __future__ import annotations
 import bpy
 
 from .. import native
-from ..properties import core_sex
+from ..preferences import SEXES, preferred
+from ..subject_settings import core_sex
 from ..scene.mannequin import build_mannequin
 
 
@@ -19,7 +20,7 @@ class REACHCAST_OT_add_mannequin(bpy.types.Operator):
         subtype="DISTANCE", unit="LENGTH")
     sex: bpy.props.EnumProperty(
         name="Sex", description="Whose proportions the figure has", default="ANY",
-        items=(("ANY", "Any", "In between"), ("FEMALE", "Female", ""), ("MALE", "Male", "")))
+        items=SEXES)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -31,6 +32,13 @@ class REACHCAST_OT_add_mannequin(bpy.types.Operator):
             cls.poll_message_set("Leave to Object Mode first.")
             return False
         return True
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        if not self.properties.is_property_set("stature") and preferred("stature"):
+            self.stature = min(max(preferred("stature"), 1.2), 2.2)
+        if not self.properties.is_property_set("sex"):
+            self.sex = preferred("sex")
+        return self.execute(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         core, sex = native.core(), core_sex(self.sex)

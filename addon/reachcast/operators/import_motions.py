@@ -10,7 +10,7 @@ import bpy
 from bpy_extras.io_utils import ImportHelper
 
 from .. import native
-from ..properties import core_sex
+from ..subject_settings import core_sex
 from ..reachcast_corpus import importing
 from ..reachcast_corpus.importing import FileReport
 from ..reachcast_corpus.recordings import KINDS, ReadingOptions, find_files

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..scene.nla_strips import predicted_action
 from ..scene.pose_ghosts import add_pose_ghosts, event_frames
 
 
@@ -18,18 +19,17 @@ class REACHCAST_OT_pose_ghosts(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        rig = context.scene.reachcast.rig
-        action = rig.animation_data.action if rig and rig.animation_data else None
-        if action is None or "reachcast_events" not in action:
+        if predicted_action(context.scene.reachcast.rig) is None:
             cls.poll_message_set("Predict a motion first.")
             return False
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.reachcast
-        frames = event_frames(settings.rig.animation_data.action)
+        action = predicted_action(settings.rig)
+        frames = event_frames(action)
         if self.step:
-            first = int(settings.rig.animation_data.action["reachcast_first_frame"])
+            first = int(action["reachcast_first_frame"])
             frames = list(range(first, frames[-1] + 1, self.step))
         try:
             name = add_pose_ghosts(settings.rig, frames, box=settings.box, scene=context.scene)

@@ -4,8 +4,9 @@ from __future__ import annotations
 import bpy
 
 from ..people import Person
-from ..properties import core_sex, missing
+from ..properties import missing
 from ..scene.family import predict_family
+from ..subject_settings import core_sex
 from .predict_motion import problem_of, task_of
 
 

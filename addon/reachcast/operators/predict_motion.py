@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import bpy
 
-from ..properties import ERRANDS, core_sex, missing
+from ..properties import ERRANDS, missing
+from ..scene.nla_strips import put_on_strips
 from ..scene.predict_action import PredictionResult, predict_motion
 from ..scene.publish import add_markers, mark_assets
+from ..subject_settings import core_sex
 
 
 class REACHCAST_OT_predict_motion(bpy.types.Operator):
@@ -29,13 +32,24 @@ class REACHCAST_OT_predict_motion(bpy.types.Operator):
         except (ValueError, RuntimeError) as error:  # a mistake of the user's; a file that cannot be used
             return problem_of(self, context, error)
         context.window_manager.reachcast_problem = ""
-        settings = context.scene.reachcast
-        if settings.markers:
-            add_markers(result, context.scene)
-        if settings.assets:
-            mark_assets(result)
         self.report({"INFO"}, summary(result))
+        publish(self, context, [result])
         return {"FINISHED"}
+
+
+def publish(operator: bpy.types.Operator, context: bpy.types.Context, results: Sequence[PredictionResult]) -> None:
+    """What *Output* asks for beside the Actions on the panel's rig and box; markers are of the first, which plays."""
+    settings = context.scene.reachcast
+    if settings.markers:
+        add_markers(results[0], context.scene)
+    if settings.assets:
+        for result in results:
+            mark_assets(result)
+    if settings.strips:
+        try:
+            put_on_strips(results, settings.rig, settings.box)
+        except ValueError as error:
+            operator.report({"WARNING"}, str(error))
 
 
 def problem_of(operator: bpy.types.Operator, context: bpy.types.Context, error: Exception) -> set[str]:
@@ -50,6 +64,7 @@ def task_of(context: bpy.types.Context) -> dict[str, Any]:
     settings = context.scene.reachcast
     task = {"rig": settings.rig, "shelf": settings.shelf, "corpus": settings.corpus, "home": settings.home,
             "box": settings.box, "stature": settings.stature or None, "sex": core_sex(settings.sex),
+            "age": settings.age or None, "mass": settings.mass or None,
             "bone_map": settings.bone_map or None, "phases": ERRANDS[settings.errand],
             "obstacles": meshes_in(settings.obstacles), "scene": context.scene}
     if settings.handle_left and settings.handle_right:

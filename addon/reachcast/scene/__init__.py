@@ -10,6 +10,7 @@ read_task.py       shelf, home and box -> home, target, object in the body frame
 action_writer.py   the one file that writes F-curves
 write_motion.py    rig pose and box places -> Actions
 predict_action.py  predict_motion(): reads, asks the native module, writes
+nla_strips.py      Actions on NLA tracks
 carry.py           the box in the hands: a hold, a constraint and its influence
 measure.py         what the evaluated scene really shows over the frames
 """

@@ -29,11 +29,12 @@ class FamilyResult:
 def predict_family(rig: bpy.types.Object, shelf: bpy.types.Object, *, members: Sequence[Person] = FAMILY,
                    spacing: float = 1.2, box: bpy.types.Object | None = None, start_frame: int | None = None,
                    scene: bpy.types.Scene | None = None, bone_map: object = None, stature: float | None = None,
-                   sex: str | None = None, **options: object) -> FamilyResult:
+                   sex: str | None = None, mass: float | None = None, **options: object) -> FamilyResult:
     """Predicts the task of `predict_motion` for every member, on a mannequin of its stature and sex.
 
     Each is predicted where `rig` stands, with the same shelf and home, and then shown `spacing` metres farther to the
-    rig's right, with a copy of the box, in a new collection; `rig` itself, its stature and its sex are left out. Who
+    rig's right, with a copy of the box, in a new collection; `rig` itself, its stature, sex and body mass
+    are left out. Who
     cannot do it is named in `failed` with the reason and leaves nothing behind; ValueError when that is true of all,
     or for bad input.
     """

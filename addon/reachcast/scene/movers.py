@@ -13,6 +13,8 @@ from .action_writer import curves_of
 Touches = Callable[[str], bool]
 #: Custom property of the Empties that go with both hands of a rig; see carry.py.
 HOLD = "reachcast_hold"
+#: Custom property of predicted Actions on rigs, which names their events, and of those on the boxes that they carry.
+PREDICTED, CARRIED = "reachcast_events", "reachcast_carried_by"
 _CHANNELS = ("location", "rotation", "scale")
 
 
@@ -88,16 +90,25 @@ def _animation(item: bpy.types.Object, touches: Touches, own_action: bool) -> It
         yield Mover(f"its Action '{data.action.name}'", "unlink it")
     if data.use_nla:
         for track in data.nla_tracks:
-            yield from _track(track, touches)
+            yield from _track(track, touches, own_action)
 
 
-def _track(track: bpy.types.NlaTrack, touches: Touches) -> Iterator[Mover]:
+def _track(track: bpy.types.NlaTrack, touches: Touches, own_action: bool) -> Iterator[Mover]:
     if track.is_solo:
         yield Mover(f"its NLA track '{track.name}', which plays solo", "switch the track's solo off")
     if not track.mute:
         for strip in _live_strips(track.strips):
-            if strip.action and any(touches(curve.data_path) for curve in curves_of(strip.action)):
+            action = strip.action
+            if action is None or (not own_action and _is_covered(action)):
+                continue
+            if any(touches(curve.data_path) for curve in curves_of(action)):
                 yield Mover(f"its NLA strip '{strip.name}'", f"mute the track '{track.name}'")
+
+
+def _is_covered(action: bpy.types.Action) -> bool:
+    """Whether a new Action above a strip of this one keys all that it does."""
+    return CARRIED in action or (PREDICTED in action and not any(moves_object(curve.data_path)
+                                                                 for curve in curves_of(action)))
 
 
 def _live_strips(strips: object) -> Iterator[bpy.types.NlaStrip]:

@@ -18,6 +18,7 @@ from .. import native
 from ..rigs.joints import INDEX
 from ..rigs.rotations import Array
 from .action_writer import rewrite_action
+from .nla_strips import predicted_action
 from .path_curve import add_path_curve, read_control, write_control
 from .carry import carried_channels
 from .predict_action import PredictionResult, describe, write_solved
@@ -165,7 +166,7 @@ def begin_session(rig: bpy.types.Object, shelf: bpy.types.Object, *, home: bpy.t
     learned = solve(prepared)
     phases = [phase for phase, _, _ in learned.motion.phases]
     numbers = [] if live else _edited(phases, edited)
-    former = rig.animation_data.action if rig.animation_data else None
+    former = predicted_action(rig)
     inner = {number: _inner_of(former, number, prepared, learned) for number in numbers}
     durations = None if live else {phase: float(learned.motion.times[last] - learned.motion.times[first])
                                    for phase, first, last in learned.motion.phases}

@@ -13,6 +13,7 @@ import bpy
 
 from ..rigs.bone_map import BoneMap
 from .carry import write_box_action
+from .movers import CARRIED, PREDICTED
 from .prepare import Prepared, Solved, prepare, solve
 from .transforms import layer_of
 from .write_motion import write_rig_action
@@ -100,6 +101,8 @@ def describe(solved: Solved, rig: str, action: bpy.types.Action, box_action: bpy
         tuple(zip((phase for phase, _, _ in motion.phases), motion.ways)), MappingProxyType(dict(solved.errors)),
         solved.corpus_kind)
     _label(action, result)
+    if box_action is not None:
+        box_action[CARRIED] = rig
     return result
 
 
@@ -114,7 +117,7 @@ def _label(action: bpy.types.Action, result: PredictionResult) -> None:
     """The result as custom properties: it is saved with the file and undone with the Action."""
     for event, frame in result.frames.items():
         action[event] = frame
-    action["reachcast_events"] = ", ".join(result.frames)
+    action[PREDICTED] = ", ".join(result.frames)
     action["reachcast_first_frame"] = result.first_frame
     action["reachcast_corpus_kind"] = result.corpus_kind
     action["reachcast_outside_data"] = result.outside_data
