@@ -33,8 +33,9 @@ COLUMNS_HELP = f"""columns of the table (all but target may be missing or empty;
 def main(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="batch.py", formatter_class=argparse.RawDescriptionHelpFormatter, epilog=COLUMNS_HELP,
-        description="Does every task of a table, and writes DIR/tasks/ID/ for each and DIR/results.csv for all. A second "
-                    "start does what is not done yet or has changed. Exit status 1: some motions are missing or failed.")
+        description="Does every task of a table, and writes DIR/tasks/ID/ for each, DIR/results.csv for all and the "
+                    "gallery DIR/index.html. A second start does what is not done yet or has changed. Exit status 1: "
+                    "some motions are missing or failed.")
     parser.add_argument("table", type=Path, help="tasks.csv or tasks.jsonl")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder of the results")
     parser.add_argument("--corpus", type=Path, help="motions to learn from; without it the corpus that ships")

@@ -19,6 +19,7 @@ from ..reachcast_corpus.recordings import checksum_of
 from ..rigs.joints import INDEX
 from ..scene.prepare import Solved, solve
 from ..scene.predict_action import correction_in_words
+from .gallery import write_gallery
 from .outputs import Work, write_outputs
 from .stage import Stage, person_of
 from .store import DiskFull, Store
@@ -38,7 +39,7 @@ class BatchResult:
 
 def run_batch(table: Path | str, out: Path | str, *, corpus: Path | str | None = None, part: tuple[int, int] = (1, 1),
               collect: bool = True, say: Callable[[str], None] = print) -> BatchResult:
-    """Does every task of `table` that `out` does not hold yet, and writes `out`/results.csv.
+    """Does every task of `table` that `out` does not hold yet, and writes `out`/results.csv and its gallery.
 
     A task that cannot be done is a row with its reason; one that went wrong unexpectedly is tried again by the next
     run. part=(i, n) does the i-th of n parts only, as several machines would. ValueError for a table, folder or corpus
@@ -62,6 +63,8 @@ def run_batch(table: Path | str, out: Path | str, *, corpus: Path | str | None =
             if number % 50 == 0 or number == len(left):
                 say(_progress(number, len(left), time.perf_counter() - began))
         counts = store.write_results(units) if collect else {}
+        if collect:
+            write_gallery(store.out)
     except OSError as error:
         store.refuse_full(error)
         raise
