@@ -89,7 +89,8 @@ def compare(rig_name: str, corpus: str) -> float:
     bpy.context.view_layer.objects.active = rig
     bpy.ops.object.mode_set(mode="POSE")
     baked = median_seconds(lambda: bake(rig, frames), lambda: setattr(rig.animation_data, "action", action))
-    keys = sum(len(curve.keyframe_points) for curve in rig.animation_data.action.fcurves)
+    from reachcast.scene.action_writer import curves_of
+    keys = sum(len(curve.keyframe_points) for curve in curves_of(rig.animation_data.action))
     print(f"{rig_name}: {len(frames)} frames, {len(rig.pose.bones)} bones")
     print(f"  predict and write keys  {1000 * predicted:8.1f} ms")
     print(f"  nla.bake                {1000 * baked:8.1f} ms ({keys} keys, hands and feet within "

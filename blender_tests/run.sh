@@ -151,6 +151,13 @@ bench_test() {
       count "$name" 1 0 0
     fi
   done
+  begin "bench: a corpus of a million motions"
+  if run bench_large_corpus /usr/bin/python3 blender_tests/bench_large_corpus.py; then
+    cat "$LOGS/bench_large_corpus.log"
+    count bench_large_corpus 1 0 0
+  else
+    broken bench_large_corpus
+  fi
 }
 
 # The main job, small: its files and numbers for both rigs, then what it does with a shelf that nobody reaches.

@@ -13,6 +13,7 @@ from pathlib import Path
 import bpy
 import corpora
 from lift_cases import LiftScene, Place, lift_scene, rig_of
+from reachcast.scene.action_writer import curves_of
 from reachcast.scene.predict_action import predict_motion
 
 PLACE = Place(0.9, 20, 0.45, facing=True)
@@ -25,7 +26,7 @@ def state() -> str:
     scene, layer = bpy.context.scene, bpy.context.view_layer
     parts: list[object] = [scene.frame_current, scene.frame_subframe, sorted(map(str, scene.items()))]
     parts += [sorted(item.name for item in getattr(bpy.data, kind)) for kind in WHOLE]
-    parts += [(action.name, action.users, list(map(curve_keys, action.fcurves))) for action in bpy.data.actions]
+    parts += [(action.name, action.users, list(map(curve_keys, curves_of(action)))) for action in bpy.data.actions]
     for item in bpy.data.objects:
         parts += [item.name, item.parent and item.parent.name, matrix(item.matrix_basis), matrix(item.matrix_world),
                   item.rotation_mode, animation(item), properties(item), item.select_get(), layer.objects.active]
@@ -87,7 +88,8 @@ class Bad(unittest.TestCase):
     def refused_by_button(self, words: tuple[str, ...], given: dict[str, object]) -> None:
         settings = bpy.context.scene.reachcast
         for name, value in given.items():
-            if not hasattr(settings, name) or (name == "sex" and value not in ("ANY", "FEMALE", "MALE")):
+            if not hasattr(settings, name) or (name == "sex" and value not in ("ANY", "FEMALE", "MALE")) \
+                    or (name == "age" and isinstance(value, str)):
                 return  # the panel does not offer it
             setattr(settings, name, value)
         before = state()

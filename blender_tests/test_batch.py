@@ -68,7 +68,7 @@ class Rows(Batch):
             with self.subTest(row=name):
                 self.assertEqual(found[name][0], status)
                 self.assertIn(word, found[name][1])
-        self.assertEqual(sorted(os.listdir(self.out)), ["results.csv", "tasks"])
+        self.assertEqual(sorted(os.listdir(self.out)), ["index.html", "results.csv", "tasks"])
         self.assertEqual(os.listdir(self.out / "tasks" / "high"), ["result.json"])
 
     def test_a_table_that_is_none_is_refused(self) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 from mathutils import Matrix
+from reachcast.scene.action_writer import curves_of
 from reachcast.scene.measure import Samples, sample
 from reachcast.scene.nla_strips import predicted_action, put_on_strips
 from reachcast.scene.predict_action import PredictionResult
@@ -73,7 +74,7 @@ class Strips(Scene):
         mine.strips.new("lamp", 1, own)
         put_on_strips([self.predict()], self.rig, self.box)
         self.assertEqual(self.rig.animation_data.nla_tracks[0].strips[0].action, own)
-        self.assertEqual(len(own.fcurves), 1)
+        self.assertEqual(len(list(curves_of(own))), 1)
 
     def test_of_several_targets_the_first_plays(self) -> None:
         other = self.empty("Other", Matrix(), (0.1, *self.shelf.location.yz))

@@ -11,6 +11,7 @@ from lift_cases import LiftScene, Place, cuboid, lift_scene, rig_of
 from mathutils import Vector
 from mathutils.geometry import interpolate_bezier
 from reachcast import path_editing
+from reachcast.scene.action_writer import curves_of
 from reachcast.scene.measure import sample
 from reachcast.scene.path_curve import read_control
 from reachcast.scene.path_session import PathSession, SessionEnded, begin_session, end_session
@@ -231,7 +232,7 @@ class Variants(unittest.TestCase):
         def keys() -> list[np.ndarray]:
             found = self.draw(count=2, seed=11, tube=False)
             action = bpy.data.actions[found.results[1].action]
-            return [np.array([point.co[1] for point in curve.keyframe_points]) for curve in action.fcurves]
+            return [np.array([point.co[1] for point in curve.keyframe_points]) for curve in curves_of(action)]
         for one, other in zip(keys(), keys()):
             np.testing.assert_array_equal(one, other)
 

@@ -14,7 +14,10 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.fspath(Path(__file__).resolve().parent.parent / "addon"))
 
 import addon_utils  # noqa: E402
+import bpy  # noqa: E402
 
+if not bpy.data.filepath:
+    bpy.ops.wm.read_homefile(use_empty=True)  # without the startup file's cube
 addon_utils.enable("reachcast")
 
 from reachcast.batch.command import main  # noqa: E402

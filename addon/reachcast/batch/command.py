@@ -7,9 +7,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from .jobs import JobsFailed
 from .run import run_batch
 from .store import DiskFull
-from .tasks import OUTPUTS, PHASES
+from .tasks import ENGINES, OUTPUTS, PHASES
 
 COLUMNS_HELP = f"""columns of the table (all but target may be missing or empty; JSON Lines has the same names as keys):
   id         names the result's folder; row-00001, ... where it is empty
@@ -21,31 +22,40 @@ COLUMNS_HELP = f"""columns of the table (all but target may be missing or empty;
   load       mass of the object, kg
   phases     any of {', '.join(PHASES)}, separated by blanks (transfer where empty)
   variants   so many motions drawn from seeds seed, seed + 1, ...; 0 or empty: the mean motion
-  outputs    any of {', '.join(OUTPUTS)}, separated by blanks (csv where empty)
+  outputs    any of {', '.join(OUTPUTS)}, separated by blanks (csv where empty); png: every frame, mp4: a film,
+             sheet: one picture of the key moments
+  engine     of the pictures: {', '.join(ENGINES)} (EEVEE where empty)
+  camera     one of the scene; empty: one that sees the whole motion, with floor and light if the scene has no camera
+  resolution of the pictures, width x height (640x480 where empty)
+  frame_step every so many frames is drawn (1 where empty)
 """
 
 
 def main(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="batch.py", formatter_class=argparse.RawDescriptionHelpFormatter, epilog=COLUMNS_HELP,
-        description="Does every task of a table, and writes DIR/tasks/ID/ for each and DIR/results.csv for all. A second "
-                    "start does what is not done yet or has changed. Exit status 1: some motions are missing or failed.")
+        description="Does every task of a table, and writes DIR/tasks/ID/ for each, DIR/results.csv for all and the "
+                    "gallery DIR/index.html. A second start does what is not done yet or has changed. Exit status 1: "
+                    "some motions are missing or failed.")
     parser.add_argument("table", type=Path, help="tasks.csv or tasks.jsonl")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder of the results")
     parser.add_argument("--corpus", type=Path, help="motions to learn from; without it the corpus that ships")
     parser.add_argument("--part", default="1/1", metavar="I/N", help="do the I-th of N parts and write no results.csv")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="so many Blender processes at once")
     options = parser.parse_args(list(arguments))
     try:
         part = tuple(map(int, options.part.split("/")))
         if len(part) != 2:
             raise ValueError(f"--part is '{options.part}'; it must be like 2/8")
         found = run_batch(options.table, options.out, corpus=options.corpus, part=part,  # type: ignore[arg-type]
-                          collect=options.part == "1/1", say=lambda line: print(line, flush=True))
-    except (ValueError, DiskFull) as error:
+                          jobs=options.jobs, collect=options.part == "1/1", say=lambda line: print(line, flush=True))
+    except (ValueError, DiskFull, JobsFailed) as error:
         print(f"batch: {error}.", file=sys.stderr, flush=True)
         return 2
     said = ", ".join(f"{count} {status}" for status, count in found.counts.items())
     rate = found.worked / max(found.seconds["whole"], 1e-9)
+    if found.lost:
+        print(f"{found.lost} processes ended unexpectedly; others took their place", flush=True)
     print(f"{said or 'part done'}; {found.worked} made now in {found.seconds['whole']:.1f} s ({rate:.0f} a second): "
           f"predict {found.seconds['predict']:.1f} s, write {found.seconds['write']:.1f} s", flush=True)
     return 1 if set(found.counts) & {"failed", "missing"} else 0

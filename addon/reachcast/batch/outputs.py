@@ -13,6 +13,7 @@ from ..rigs.joints import JOINTS
 from ..scene.predict_action import write_solved
 from ..scene.prepare import Prepared, Solved
 from .bvh import write_bvh
+from .pictures import PICTURES, write_pictures
 from .stage import Load, Worker
 from .tasks import Unit
 
@@ -38,7 +39,7 @@ def write_outputs(work: Work, folder: Path) -> list[str]:
     if "bvh" in wanted:
         write_bvh(folder / "motion.bvh", work.worker.skeleton, work.solved.pose, work.frame_rate)
         files.append("motion.bvh")
-    if wanted & {"action", "gltf"}:
+    if wanted & {"action", "gltf", *PICTURES}:
         files += _write_from_scene(work, folder, wanted)
     return files
 
@@ -86,6 +87,9 @@ def _write_from_scene(work: Work, folder: Path, wanted: set[str]) -> list[str]:
         if "gltf" in wanted:
             _write_gltf(work, folder / "motion.glb")
             files.append("motion.glb")
+        if wanted & PICTURES:
+            files += write_pictures(work.unit.task, work.prepared, work.solved, work.worker, work.load, FIRST_FRAME,
+                                    work.frame_rate, folder)
     finally:
         for item, action in kept.items():
             if item.animation_data:

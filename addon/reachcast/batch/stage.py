@@ -58,6 +58,7 @@ class Stage:
         task = unit.task
         worker, load = self._worker(task), self._load(task)
         skeleton = worker.skeleton
+        self._show_only(worker, load)
         if task.rig is not None or isinstance(task.object, str):
             self._refuse_unwritable(worker, load)
         if task.home is not None:
@@ -71,6 +72,16 @@ class Stage:
         if unit.seed is not None:
             options["variation"] = {"seed": unit.seed}
         return Prepared(skeleton, lift, subject, self.corpus, options), worker, load
+
+    def _show_only(self, worker: Worker, load: Load) -> None:
+        """Of what was made for tasks, pictures have only this."""
+        made = [each.rig for key, each in self._workers.items() if key[0] is None]
+        made += [each.box for key, each in self._loads.items() if not isinstance(key[0], str)]
+        for item in made:
+            hidden = item not in (worker.rig, load.box)
+            if item.hide_render != hidden:
+                for part in (item, *item.children):
+                    part.hide_render = hidden
 
     def _refuse_unwritable(self, worker: Worker, load: Load) -> None:
         """ValueError when an Action would not be all that moves the scene's own rig or box; looked at once a pair."""
@@ -137,9 +148,20 @@ def add_cuboid(size: tuple[float, ...]) -> bpy.types.Object:
     mesh = bpy.data.meshes.new("Box")
     corners = [(a * size[0] / 2, b * size[1] / 2, c * size[2]) for a in (-1, 1) for b in (-1, 1) for c in (0, 1)]
     mesh.from_pydata(corners, [], [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
+    mesh.materials.append(_cardboard())
     box = bpy.data.objects.new("Box", mesh)
     bpy.context.scene.collection.objects.link(box)
     return box
+
+
+def _cardboard() -> bpy.types.Material:
+    material = bpy.data.materials.get("Cardboard")
+    if material is None:
+        material = bpy.data.materials.new("Cardboard")
+        material.use_nodes = True
+        material.diffuse_color = material.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (
+            0.40, 0.23, 0.11, 1.0)
+    return material
 
 
 def _about_z(angle: float) -> Array:

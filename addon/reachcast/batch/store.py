@@ -34,7 +34,7 @@ class Store:
         try:
             self.tasks.mkdir(parents=True, exist_ok=True)
             self.drafts.mkdir(exist_ok=True)
-            self._drop_orphans()
+            self.drop_orphans()
             self.own.mkdir(exist_ok=True)
         except OSError as error:
             self.refuse_full(error)
@@ -47,12 +47,24 @@ class Store:
         except OSError:
             pass  # another process works there
 
+    def drop_orphans(self) -> None:
+        """Drafts of processes of this machine that are no more."""
+        for folder in self.drafts.iterdir():
+            host, _, process = folder.name.rpartition("-")
+            if host == socket.gethostname() and not Path(f"/proc/{process}").exists():
+                shutil.rmtree(folder, ignore_errors=True)
+
     def result(self, unit: Unit) -> dict[str, object] | None:
         """What is finished under this unit's id, whatever it was made of."""
         try:
             return json.loads((self.tasks / unit.id / RESULT).read_text(encoding="utf-8"))
         except (OSError, ValueError):
             return None
+
+    def is_done(self, unit: Unit, checksum: str) -> bool:
+        """Whether it was finished as it is asked for now; what went wrong unexpectedly is to be tried again."""
+        result = self.result(unit)
+        return result is not None and result.get("checksum") == checksum and result.get("status") in ("done", "refused")
 
     def draft(self, unit: Unit) -> Path:
         """An empty folder to work in."""
@@ -102,10 +114,3 @@ class Store:
         if result is None:
             return {"id": unit.id, "status": "missing", "reason": "it has not been worked on"}
         return {"id": unit.id, **result}
-
-    def _drop_orphans(self) -> None:
-        """Drafts of processes of this machine that are no more."""
-        for folder in self.drafts.iterdir():
-            host, _, process = folder.name.rpartition("-")
-            if host == socket.gethostname() and not Path(f"/proc/{process}").exists():
-                shutil.rmtree(folder, ignore_errors=True)

@@ -9,7 +9,8 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 
-OUTPUTS = ("action", "csv", "bvh", "gltf")
+OUTPUTS = ("action", "csv", "bvh", "gltf", "png", "mp4", "sheet")
+ENGINES = ("EEVEE", "WORKBENCH", "CYCLES")
 PHASES = ("reach", "transfer", "return", "retrieve")
 MOST_VARIANTS = 1000
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
@@ -35,6 +36,10 @@ class Task:
     variants: int = 0                 #: 0: the mean motion
     seed: int = 1                     #: of the first variant
     outputs: tuple[str, ...] = ("csv",)
+    engine: str = "EEVEE"             #: of the pictures, as are all below
+    camera: str | None = None         #: one of the scene; None: one that sees the whole motion
+    resolution: tuple[int, int] = (640, 480)
+    frame_step: int = 1               #: every so many frames is drawn
 
 
 @dataclass(frozen=True)
@@ -149,14 +154,25 @@ def _words(allowed: tuple[str, ...]) -> Callable[[str, object], tuple[str, ...]]
     return read
 
 
-def _sex(name: str, value: object) -> str:
-    if value not in ("female", "male"):
-        raise ValueError(f"{name} is {value!r}; it must be female or male")
-    return str(value)
+def _one_of(*allowed: str) -> Callable[[str, object], str]:
+    def read(name: str, value: object) -> str:
+        if value not in allowed:
+            raise ValueError(f"{name} is {value!r}; it must be {', '.join(allowed[:-1])} or {allowed[-1]}")
+        return str(value)
+    return read
+
+
+def _resolution(name: str, value: object) -> tuple[int, int]:
+    """Even, as films need it."""
+    numbers = _numbers(value.replace("x", " ") if isinstance(value, str) else value)
+    if numbers is None or len(numbers) != 2 or not all(16 <= part <= 4096 and part % 2 == 0 for part in numbers):
+        raise ValueError(f"{name} is {value!r}; it must be width x height, even numbers of pixels from 16 to 4096 each")
+    return int(numbers[0]), int(numbers[1])
 
 
 _COLUMNS: dict[str, Callable[[str, object], object]] = {
-    "id": _identifier, "rig": _text, "stature": _number(0.5, 2.5), "sex": _sex, "age": _number(0.0, 120.0),
+    "id": _identifier, "rig": _text, "stature": _number(0.5, 2.5), "sex": _one_of("female", "male"), "age": _number(0.0, 120.0),
     "mass": _number(1.0, 400.0), "home": _place, "target": _place, "object": _object, "load": _number(0.0, 200.0),
     "phases": _words(PHASES), "variants": _whole(0, MOST_VARIANTS), "seed": _whole(0, 2 ** 31 - 1 - MOST_VARIANTS),
-    "outputs": _words(OUTPUTS)}
+    "outputs": _words(OUTPUTS), "engine": _one_of(*ENGINES), "camera": _text, "resolution": _resolution,
+    "frame_step": _whole(1, 100)}

@@ -248,6 +248,7 @@ std::shared_ptr<const MotionTable> Corpus::table() const {
     opening::require_corpus(connection, state_->path);  // the change may have been to a newer schema
     Statement row(connection, rows::select(false));
     std::vector<MotionSummary> motions;
+    motions.reserve(static_cast<std::size_t>(connection.integer("SELECT count(*) FROM motions")));
     while (row.step()) motions.push_back(read_row(state_->path, [&] { return rows::read_summary(row); }));
     state_->table = std::make_shared<const MotionTable>(std::move(motions));
     state_->table_version = version;

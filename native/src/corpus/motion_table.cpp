@@ -55,11 +55,17 @@ Pool::Pool(const PhaseColumns& columns, std::span<const std::uint32_t> positions
   }
 }
 
-MotionTable::MotionTable(std::vector<MotionSummary> motions) : motions_(std::move(motions)) {
-  std::stable_sort(motions_.begin(), motions_.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-  for (std::size_t row = 0; row < motions_.size(); ++row) {
-    const MotionSummary& motion = motions_[row];
-    PhaseColumns& columns = phases_[static_cast<std::size_t>(motion.phase)];
+namespace {
+
+PhaseColumns columns_of(std::span<const MotionSummary> motions, Phase phase) {
+  PhaseColumns columns;
+  std::vector<std::uint32_t> all, originals;
+  for (std::size_t row = 0; row < motions.size(); ++row) {
+    const MotionSummary& motion = motions[row];
+    if (motion.phase != phase) continue;
+    const auto at = static_cast<std::uint32_t>(columns.size());
+    all.push_back(at);
+    if (!motion.is_mirrored) originals.push_back(at);
     columns.rows.push_back(static_cast<std::uint32_t>(row));
     columns.home.push_back(motion.home);
     columns.target.push_back(motion.target);
@@ -67,16 +73,24 @@ MotionTable::MotionTable(std::vector<MotionSummary> motions) : motions_(std::mov
     const TraitValues traits = traits_of(motion.subject, motion.duration_s);
     for (std::size_t t = 0; t < kTraitCount; ++t) columns.traits[t].push_back(traits[t]);
   }
-  for (PhaseColumns& columns : phases_) {
-    std::vector<std::uint32_t> all, originals;
-    for (std::uint32_t i = 0; i < columns.size(); ++i) {
-      all.push_back(i);
-      if (!columns.is_mirrored[i]) originals.push_back(i);
-    }
-    columns.all = Pool(columns, all);
-    columns.originals = Pool(columns, originals);
-    columns.index = TaskIndex(columns.home, columns.target);
-  }
+  columns.all = Pool(columns, all);
+  columns.originals = Pool(columns, originals);
+  columns.index = TaskIndex(columns.home, columns.target);
+  return columns;
+}
+
+}  // namespace
+
+MotionTable::MotionTable(std::vector<MotionSummary> motions) : motions_(std::move(motions)) {
+  const auto by_id = [](const MotionSummary& a, const MotionSummary& b) { return a.id < b.id; };
+  if (!std::is_sorted(motions_.begin(), motions_.end(), by_id))
+    std::stable_sort(motions_.begin(), motions_.end(), by_id);
+}
+
+const PhaseColumns& MotionTable::of(Phase phase) const {
+  const auto number = static_cast<std::size_t>(phase);
+  std::call_once(made_[number], [&] { phases_[number] = columns_of(motions_, phase); });
+  return phases_[number];
 }
 
 }  // namespace reachcast

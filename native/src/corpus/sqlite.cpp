@@ -4,7 +4,8 @@
 namespace reachcast::sqlite {
 
 Connection::Connection(const std::filesystem::path& path, int flags, int busy_timeout_ms) {
-  const int code = sqlite3_open_v2(path.string().c_str(), &handle_, flags | SQLITE_OPEN_FULLMUTEX, nullptr);
+  // Whoever uses a connection from several threads holds a mutex anyway; SQLite's own costs a tenth of the reading.
+  const int code = sqlite3_open_v2(path.string().c_str(), &handle_, flags | SQLITE_OPEN_NOMUTEX, nullptr);
   if (code != SQLITE_OK) {
     const Error error(handle_ ? sqlite3_extended_errcode(handle_) : code,
                       handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(code));

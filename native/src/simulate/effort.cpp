@@ -21,8 +21,8 @@ struct Range {
 
 // How far people go: American Academy of Orthopaedic Surgeons (1965) for hip 120, knee 135, elbow 150, lumbar 75 (here
 // all of pelvis to chest), neck 45 each way; with the heel down and the knee bent under the body's weight a shin leans
-// forward to about 40. The table was cited from memory and could not be checked against the book; reference values of
-// Soucie et al. (2011) are of the same size. Neutral angles are this project's: chosen so that lifts come out as
+// forward to about 40. Elbow and wrist were checked in later tables that quote the book, the rest is cited from memory;
+// reference values of Soucie et al. (2011) are of the same size. Neutral angles are this project's: chosen so that lifts come out as
 // recorded ones do. The neutral elbow is bent, as people carry.
 constexpr Range kAnkle{0, -20, 40}, kKnee{8, 2, 135}, kHip{4, -15, 132};
 constexpr Range kBackForward{2, -20, 65}, kBackSideways{0, -30, 30}, kBackTwist{0, -40, 40};

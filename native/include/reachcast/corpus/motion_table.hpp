@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -75,17 +76,19 @@ struct PhaseColumns {
   [[nodiscard]] const Pool& pool(bool mirrored) const { return mirrored ? all : originals; }
 };
 
-/// In id order. Not changed once made.
+/// In id order. Not changed once made, but for the columns of a phase, which are made when they are first asked for: in
+/// a corpus of a million motions that takes longer than reading the motions.
 class MotionTable {
  public:
   explicit MotionTable(std::vector<MotionSummary> motions);
 
   [[nodiscard]] const std::vector<MotionSummary>& motions() const { return motions_; }
-  [[nodiscard]] const PhaseColumns& of(Phase phase) const { return phases_[static_cast<std::size_t>(phase)]; }
+  [[nodiscard]] const PhaseColumns& of(Phase phase) const;  ///< from any thread
 
  private:
   std::vector<MotionSummary> motions_;
-  std::array<PhaseColumns, kPhaseCount> phases_;
+  mutable std::array<PhaseColumns, kPhaseCount> phases_;
+  mutable std::array<std::once_flag, kPhaseCount> made_;
 };
 
 }  // namespace reachcast

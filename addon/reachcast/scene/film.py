@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures become a film or a contact sheet, by Blender's own sequencer, in a scene that is removed again."""
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+
+from .blender_versions import add_caption, set_film, strips_of
+from .render import leave_no_stamp
+
+COLUMNS = 3
+PANEL_WIDTH = 480             #: pixels, at most
+GAP, CAPTION = 6, 34          #: pixels between the panels and beneath them
+PAPER, INK = (0.95, 0.957, 0.965), (0.125, 0.157, 0.188, 1.0)
+
+
+@dataclass(frozen=True)
+class Moment:
+    """A picture of the contact sheet."""
+
+    frame: int
+    label: str
+
+
+def write_film(pictures: Sequence[Path], size: tuple[int, int], rate: float, path: Path, rest: float = 0.0) -> None:
+    """H.264 of the pictures, which lie in one folder, `rate` a second; it stays on the last one for `rest` seconds."""
+    with _sequence(size) as scene:
+        strip = strips_of(scene).new_image("Film", os.fspath(pictures[0]), 1, 1, fit_method="ORIGINAL")
+        for picture in [*pictures[1:], *pictures[-1:] * round(rest * rate)]:
+            strip.elements.append(picture.name)
+        scene.frame_end = len(strip.elements)
+        render = scene.render
+        render.fps = max(1, round(rate))
+        render.fps_base = render.fps / rate
+        set_film(render.image_settings)
+        coding = render.ffmpeg
+        coding.format, coding.codec, coding.audio_codec = "MPEG4", "H264", "NONE"
+        coding.constant_rate_factor, coding.ffmpeg_preset, coding.gopsize = "HIGH", "GOOD", 12
+        render.filepath = os.fspath(path)
+        bpy.ops.render.render(animation=True, scene=scene.name)
+
+
+def write_contact_sheet(moments: Sequence[Moment], pictures: dict[int, Path], size: tuple[int, int],
+                        path: Path) -> None:
+    """Three pictures a row, of `size` or smaller; under each what it shows."""
+    scale = min(1.0, PANEL_WIDTH / size[0])
+    panel = round(size[0] * scale), round(size[1] * scale)
+    columns = min(COLUMNS, len(moments))
+    rows = -(-len(moments) // columns)
+    step = panel[0] + 2 * GAP, panel[1] + 2 * GAP + CAPTION
+    sheet = columns * step[0], rows * step[1]
+    with _sequence(sheet) as scene:
+        paper = strips_of(scene).new_effect(name="Paper", type="COLOR", channel=1, frame_start=1, frame_end=2)
+        paper.color = PAPER
+        for number, moment in enumerate(moments):
+            left, top = number % columns * step[0] + GAP, sheet[1] - number // columns * step[1] - GAP
+            _add_panel(scene, pictures[moment.frame], 2 * number + 2, scale,
+                       (left + 0.5 * panel[0] - 0.5 * sheet[0], top - 0.5 * panel[1] - 0.5 * sheet[1]))
+            caption = add_caption(scene, moment.label, 2 * number + 3, 1)
+            caption.font_size, caption.color = min(16, max(6, panel[0] // 18)), INK
+            caption.location = (left + 4) / sheet[0], (top - panel[1] - 0.75 * CAPTION) / sheet[1]
+            caption.blend_type = "ALPHA_OVER"
+        scene.frame_end = 1
+        scene.render.filepath = os.fspath(path)
+        bpy.ops.render.render(write_still=True, scene=scene.name)
+
+
+def _add_panel(scene: bpy.types.Scene, picture: Path, channel: int, scale: float, middle: tuple[float, float]) -> None:
+    """middle: pixels from the middle of the sheet."""
+    strip = strips_of(scene).new_image(picture.name, os.fspath(picture), channel, 1, fit_method="ORIGINAL")
+    strip.blend_type = "ALPHA_OVER"
+    strip.transform.scale_x = strip.transform.scale_y = scale
+    strip.transform.offset_x, strip.transform.offset_y = middle
+
+
+@contextmanager
+def _sequence(size: tuple[int, int]) -> Iterator[bpy.types.Scene]:
+    """A scene for the sequencer alone, which shows pictures as they are."""
+    scene = bpy.data.scenes.new("Film")
+    try:
+        scene.view_settings.view_transform, scene.view_settings.look = "Standard", "None"
+        render = scene.render
+        render.resolution_x, render.resolution_y = size
+        render.resolution_percentage = 100
+        render.image_settings.file_format, render.image_settings.color_mode = "PNG", "RGB"
+        leave_no_stamp(scene)
+        scene.frame_start = 1
+        yield scene
+    finally:
+        bpy.data.scenes.remove(scene)
