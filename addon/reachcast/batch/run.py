@@ -2,117 +2,104 @@
 """`run_batch`: a table becomes a folder of results, as far as it is not one already."""
 from __future__ import annotations
 
-import errno
 import os
-import shutil
 import time
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
-import numpy as np
 
 from .. import native
 from ..corpora import default_corpus, opened_corpus
 from ..reachcast_corpus.recordings import checksum_of
-from ..rigs.joints import INDEX
-from ..scene.prepare import Solved, solve
-from ..scene.predict_action import correction_in_words
 from .gallery import write_gallery
-from .outputs import Work, write_outputs
+from .jobs import Order, run_jobs
+from .progress import Progress
 from .stage import Stage, person_of
-from .store import DiskFull, Store
+from .store import Store
 from .table import BadRow, read_table, units_in
 from .tasks import Unit
+from .unit_work import work
 
 VERSION = 1   #: of what the same task is turned into; a new one makes every task be done again
-_FEET = [INDEX[f"{side}_{joint}"] for side in ("left", "right") for joint in ("ball", "ankle")]
 
 
 @dataclass(frozen=True)
 class BatchResult:
-    counts: dict[str, int]      #: rows of results.csv by status
+    counts: dict[str, int]      #: rows of results.csv, or of the part that was done, by status
     worked: int                 #: units worked on in this run; the others were there already
-    seconds: dict[str, float]   #: spent on predict, write and the whole
+    seconds: dict[str, float]   #: spent on predict and write, of all processes together, and the whole
+    lost: int                   #: processes that died while they worked, each replaced by another
 
 
 def run_batch(table: Path | str, out: Path | str, *, corpus: Path | str | None = None, part: tuple[int, int] = (1, 1),
-              collect: bool = True, say: Callable[[str], None] = print) -> BatchResult:
+              jobs: int = 1, collect: bool = True, say: Callable[[str], None] = print) -> BatchResult:
     """Does every task of `table` that `out` does not hold yet, and writes `out`/results.csv and its gallery.
 
     A task that cannot be done is a row with its reason; one that went wrong unexpectedly is tried again by the next
-    run. part=(i, n) does the i-th of n parts only, as several machines would. ValueError for a table, folder or corpus
-    that cannot be used; DiskFull when the disk is full.
+    run. part=(i, n) does the i-th of n parts only, as several machines would. jobs: so many processes of this Blender
+    with the scene as it is now; 1 is this one alone. ValueError for a table, folder or corpus that cannot be used;
+    DiskFull when the disk is full; JobsFailed when other processes cannot be had.
     """
     began = time.perf_counter()
-    units = units_in(read_table(Path(table)))
-    path = Path(corpus) if corpus else default_corpus()
-    if path is None:
-        raise ValueError("No corpus is given and none ships with this build of the add-on; choose a corpus file")
-    world = _world(os.fspath(path))
+    if jobs < 1:
+        raise ValueError(f"The number of jobs is {jobs}; it must be 1 or more")
+    units, path = units_in(read_table(Path(table))), _corpus(corpus)
+    world = _world(path)
     store = Store(Path(out))
     try:
-        mine = [unit for unit in _part(units, part) if isinstance(unit, Unit)]
-        left = [unit for unit in mine if not _is_done(store, unit, unit.checksum(world))]
-        say(f"{len(left)} of {len(mine)} motions are to be made")
-        seconds = {"predict": 0.0, "write": 0.0}
-        stage = Stage(opened_corpus(native.core(), os.fspath(path)))
-        for number, unit in enumerate(sorted(left, key=_by_person(left)), 1):
-            _work(store, stage, unit, unit.checksum(world), seconds)
-            if number % 50 == 0 or number == len(left):
-                say(_progress(number, len(left), time.perf_counter() - began))
-        counts = store.write_results(units) if collect else {}
-        if collect:
-            write_gallery(store.out)
+        mine = _part(units, part)
+        orders = [(unit, unit.checksum(world)) for unit in mine if isinstance(unit, Unit)]
+        left = _by_person([order for order in orders if not store.is_done(*order)])
+        say(f"{len(left)} of {len(orders)} motions are to be made")
+        progress, lost = Progress(len(left), say), 0
+        if jobs > 1 and left:
+            lost = run_jobs(left, store, path, jobs, progress)
+        elif left:
+            stage = Stage(opened_corpus(native.core(), path))
+            for unit, checksum in left:
+                progress.add(work(store, stage, unit, checksum))
+        counts = _collect(store, units, world) if collect else _counts(store.rows(mine, world))
     except OSError as error:
         store.refuse_full(error)
         raise
     finally:
         store.close()
-    return BatchResult(counts, len(left), {**seconds, "whole": time.perf_counter() - began})
+    return BatchResult(counts, len(left), {"predict": 0.0, "write": 0.0, **progress.seconds,
+                                           "whole": time.perf_counter() - began}, lost)
 
 
-def _work(store: Store, stage: Stage, unit: Unit, checksum: str, seconds: dict[str, float]) -> None:
-    """One unit, from its row to its folder."""
-    began = time.perf_counter()
-    draft, result = store.draft(unit), {"checksum": checksum}
+def collect_batch(table: Path | str, out: Path | str, *, corpus: Path | str | None = None) -> dict[str, int]:
+    """Makes no motion: `out`/results.csv and the gallery of what is there, and how many rows there are by status."""
+    units, world = units_in(read_table(Path(table))), _world(_corpus(corpus))
+    store = Store(Path(out))
     try:
-        prepared, worker, load = stage.prepared(unit)
-        solved = solve(prepared)
-        predicted = time.perf_counter()
-        seconds["predict"] += predicted - began
-        files = write_outputs(Work(unit, prepared, worker, load, solved, stage.frame_rate), draft)
-        if empty := [name for name in files if not (draft / name).stat().st_size]:
-            raise OSError(errno.ENOSPC if shutil.disk_usage(draft).free == 0 else errno.EIO, f"{empty[0]} is empty")
-        result.update(_facts(solved, stage.frame_rate), status="done", files=" ".join(files))
-    except ValueError as error:
-        predicted = time.perf_counter()
-        store.refuse_full()
-        _empty(draft)
-        result.update(status="refused", reason=str(error))
-    except (OSError, RuntimeError) as error:
-        predicted = time.perf_counter()
-        store.refuse_full(error if isinstance(error, OSError) else None)
-        _empty(draft)
-        result.update(status="failed", reason=" ".join(str(error).split()))
-    store.finish(unit, draft, result)
-    seconds["write"] += time.perf_counter() - predicted
+        return _collect(store, units, world)
+    except OSError as error:
+        store.refuse_full(error)
+        raise
+    finally:
+        store.close()
 
 
-def _facts(solved: Solved, rate: float) -> dict[str, object]:
-    motion = solved.motion
-    feet = solved.reached[:, _FEET]
-    facts: dict[str, object] = {
-        "foot_slip_mm": round(1000.0 * float(np.linalg.norm(feet - feet[0], axis=2).max()), 4),
-        "duration_s": round((len(feet) - 1) / rate, 4),
-        "durations": "; ".join(f"{phase} {(last - first) / rate:.3f}" for phase, first, last in motion.phases),
-        "outside_data": "; ".join(map(str, motion.outside_reasons)) if motion.outside_data else "",
-        "neighbours": " ".join(f"{near.id}:{near.weight:.3f}" for near in motion.neighbours),
-        "corrections": "; ".join(map(correction_in_words, motion.corrections))}
-    facts.update({f"{name}_error_mm": round(1000.0 * solved.errors[name], 4)
-                  for name in ("landing", "grip") if name in solved.errors})
-    return facts
+def _collect(store: Store, units: Sequence[Unit | BadRow], world: str) -> dict[str, int]:
+    rows = store.rows(units, world)
+    store.write_results(rows)
+    write_gallery(store.out)
+    return _counts(rows)
+
+
+def _counts(rows: Sequence[dict[str, object]]) -> dict[str, int]:
+    return dict(Counter(str(row["status"]) for row in rows))
+
+
+def _corpus(given: Path | str | None) -> str:
+    path = Path(given) if given else default_corpus()
+    if path is None:
+        raise ValueError("No corpus is given and none ships with this build of the add-on; choose a corpus file")
+    return os.fspath(path.absolute())
 
 
 def _world(corpus: str) -> str:
@@ -136,24 +123,9 @@ def _part(units: Sequence[Unit | BadRow], part: tuple[int, int]) -> Sequence[Uni
     return units[(number - 1) * len(units) // count:number * len(units) // count]
 
 
-def _is_done(store: Store, unit: Unit, checksum: str) -> bool:
-    result = store.result(unit)
-    return result is not None and result.get("checksum") == checksum and result.get("status") in ("done", "refused")
-
-
-def _by_person(units: Sequence[Unit]) -> Callable[[Unit], int]:
-    """Keeps the tasks of a person together, in the table's order."""
-    order: dict[object, int] = {}
-    for unit in units:
-        order.setdefault(person_of(unit.task), len(order))
-    return lambda unit: order[person_of(unit.task)]
-
-
-def _empty(folder: Path) -> None:
-    for item in list(folder.iterdir()):
-        shutil.rmtree(item) if item.is_dir() else item.unlink()
-
-
-def _progress(number: int, count: int, seconds: float) -> str:
-    rate = number / seconds
-    return f"{number} of {count}, {rate:.1f} a second, {(count - number) / rate:.0f} s left"
+def _by_person(orders: Sequence[Order]) -> list[Order]:
+    """The tasks of a person together, else in the table's order."""
+    first: dict[object, int] = {}
+    for unit, _ in orders:
+        first.setdefault(person_of(unit.task), len(first))
+    return sorted(orders, key=lambda order: first[person_of(order[0].task)])
