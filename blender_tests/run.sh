@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # All tests, native and in Blender. Ends in one line: N passed, N failed, N skipped. Logs stay in build/logs.
 #
-#     bash blender_tests/run.sh [PART...]      parts: native sanitized python blender window lift (these by default), bench
+#     bash blender_tests/run.sh [PART...]      parts: native sanitized python blender window lift slurm (these by default),
+#                                              bench
 #
 # Recordings are looked for in $REACHCAST_MOCAP, else in ../shared/mocap beside the project; without them tests skip.
 set -euo pipefail
@@ -173,9 +174,16 @@ lift_test() {
   count_last_line lift "$status"
 }
 
+slurm_test() {
+  local status=0
+  begin "slurm: a batch on two nodes, one of which is killed midway"
+  run slurm /usr/bin/python3 blender_tests/check_slurm.py || status=$?
+  count_last_line slurm "$status"
+}
+
 main() {
   local part parts=("$@")
-  [ ${#parts[@]} -gt 0 ] || parts=(native sanitized python blender window lift)
+  [ ${#parts[@]} -gt 0 ] || parts=(native sanitized python blender window lift slurm)
   mkdir -p "$LOGS"
   WORK=$(mktemp -d)
   trap 'rm -rf "$WORK"' EXIT
@@ -186,7 +194,7 @@ main() {
       native) native_tests native release ;;
       sanitized) native_tests sanitized asan-ubsan ;;
       python | blender | window) "${part}_tests" ;;
-      bench | lift) "${part}_test" ;;
+      bench | lift | slurm) "${part}_test" ;;
       *) fail "run.sh: unknown part '$part'" ;;
     esac
   done

@@ -19,7 +19,7 @@ from unittest import mock
 from lift_cases import cuboid
 from reachcast.batch import unit_work
 from reachcast.batch.jobs import MOST_TRIES, JobsFailed
-from reachcast.batch.run import BatchResult, run_batch
+from reachcast.batch.run import BatchResult, collect_batch, run_batch
 
 HOME = "0 0.42 0.1"
 ROWS = [{"id": f"r{number}", "stature": 1.6 + 0.1 * (number % 2), "home": HOME, "outputs": "csv bvh",
@@ -108,6 +108,16 @@ class Jobs(unittest.TestCase):
         with mock.patch("reachcast.batch.jobs._command", return_value=["sh", "-c", "echo no display >&2; exit 3"]), \
                 self.assertRaisesRegex(JobsFailed, "exit status 3.*no display"):
             self.run_rows(ROWS, jobs=2)
+
+    def test_collecting_makes_nothing_and_says_what_is_missing_or_out_of_date(self) -> None:
+        self.assertEqual(self.run_rows(ROWS[:4], part=(1, 2), collect=False).counts, {"done": 2})
+        self.assertFalse((self.out / "results.csv").exists())
+        table = self.folder / "tasks.jsonl"
+        table.write_text("".join(json.dumps(row) + "\n" for row in ({**ROWS[0], "load": 3}, *ROWS[1:4])))
+        self.assertEqual(collect_batch(table, self.out), {"missing": 3, "done": 1})
+        self.assertIn("what is there is of another row", (self.out / "results.csv").read_text())
+        self.assertEqual(self.finished(), 2)
+        self.assertEqual(run_batch(table, self.out, say=self.said.append).counts, {"done": 4})
 
     def test_whatever_a_task_raises_it_fails_alone(self) -> None:
         write = unit_work.write_outputs

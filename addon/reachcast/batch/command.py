@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from .jobs import JobsFailed
-from .run import run_batch
+from .run import collect_batch, run_batch
 from .store import DiskFull
 from .tasks import ENGINES, OUTPUTS, PHASES
 
@@ -40,22 +40,43 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("table", type=Path, help="tasks.csv or tasks.jsonl")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder of the results")
     parser.add_argument("--corpus", type=Path, help="motions to learn from; without it the corpus that ships")
-    parser.add_argument("--part", default="1/1", metavar="I/N", help="do the I-th of N parts and write no results.csv")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="so many Blender processes at once")
+    some = parser.add_mutually_exclusive_group()
+    some.add_argument("--part", metavar="I/N", help="do the I-th of N parts; no results.csv and no gallery")
+    some.add_argument("--collect", action="store_true", help="only results.csv and the gallery of what is there")
     options = parser.parse_args(list(arguments))
     try:
-        part = tuple(map(int, options.part.split("/")))
-        if len(part) != 2:
-            raise ValueError(f"--part is '{options.part}'; it must be like 2/8")
-        found = run_batch(options.table, options.out, corpus=options.corpus, part=part,  # type: ignore[arg-type]
-                          jobs=options.jobs, collect=options.part == "1/1", say=lambda line: print(line, flush=True))
+        counts = _collect(options) if options.collect else _work(options)
     except (ValueError, DiskFull, JobsFailed) as error:
         print(f"batch: {error}.", file=sys.stderr, flush=True)
         return 2
-    said = ", ".join(f"{count} {status}" for status, count in found.counts.items())
-    rate = found.worked / max(found.seconds["whole"], 1e-9)
+    return 1 if set(counts) & {"failed", "missing"} else 0
+
+
+def _collect(options: argparse.Namespace) -> dict[str, int]:
+    counts = collect_batch(options.table, options.out, corpus=options.corpus)
+    print(_said(counts), flush=True)
+    return counts
+
+
+def _work(options: argparse.Namespace) -> dict[str, int]:
+    found = run_batch(options.table, options.out, corpus=options.corpus, part=_part(options.part or "1/1"),
+                      jobs=options.jobs, collect=not options.part, say=lambda line: print(line, flush=True))
     if found.lost:
         print(f"{found.lost} processes ended unexpectedly; others took their place", flush=True)
-    print(f"{said or 'part done'}; {found.worked} made now in {found.seconds['whole']:.1f} s ({rate:.0f} a second): "
+    rate = found.worked / max(found.seconds["whole"], 1e-9)
+    print(f"{_said(found.counts)}; {found.worked} made now in {found.seconds['whole']:.1f} s ({rate:.0f} a second): "
           f"predict {found.seconds['predict']:.1f} s, write {found.seconds['write']:.1f} s", flush=True)
-    return 1 if set(found.counts) & {"failed", "missing"} else 0
+    return found.counts
+
+
+def _said(counts: dict[str, int]) -> str:
+    return ", ".join(f"{count} {status}" for status, count in counts.items()) or "an empty part"
+
+
+def _part(text: str) -> tuple[int, int]:
+    try:
+        number, count = map(int, text.split("/"))
+    except ValueError:
+        raise ValueError(f"--part is '{text}'; it must be like 2/8") from None
+    return number, count

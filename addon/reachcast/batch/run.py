@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,7 +28,7 @@ VERSION = 1   #: of what the same task is turned into; a new one makes every tas
 
 @dataclass(frozen=True)
 class BatchResult:
-    counts: dict[str, int]      #: rows of results.csv by status
+    counts: dict[str, int]      #: rows of results.csv, or of the part that was done, by status
     worked: int                 #: units worked on in this run; the others were there already
     seconds: dict[str, float]   #: spent on predict and write, of all processes together, and the whole
     lost: int                   #: processes that died while they worked, each replaced by another
@@ -45,26 +46,22 @@ def run_batch(table: Path | str, out: Path | str, *, corpus: Path | str | None =
     began = time.perf_counter()
     if jobs < 1:
         raise ValueError(f"The number of jobs is {jobs}; it must be 1 or more")
-    units = units_in(read_table(Path(table)))
-    path = Path(corpus) if corpus else default_corpus()
-    if path is None:
-        raise ValueError("No corpus is given and none ships with this build of the add-on; choose a corpus file")
-    world = _world(os.fspath(path))
+    units, path = units_in(read_table(Path(table))), _corpus(corpus)
+    world = _world(path)
     store = Store(Path(out))
     try:
-        mine = [(unit, unit.checksum(world)) for unit in _part(units, part) if isinstance(unit, Unit)]
-        left = _by_person([order for order in mine if not store.is_done(*order)])
-        say(f"{len(left)} of {len(mine)} motions are to be made")
+        mine = _part(units, part)
+        orders = [(unit, unit.checksum(world)) for unit in mine if isinstance(unit, Unit)]
+        left = _by_person([order for order in orders if not store.is_done(*order)])
+        say(f"{len(left)} of {len(orders)} motions are to be made")
         progress, lost = Progress(len(left), say), 0
         if jobs > 1 and left:
-            lost = run_jobs(left, store, os.fspath(path.absolute()), jobs, progress)
+            lost = run_jobs(left, store, path, jobs, progress)
         elif left:
-            stage = Stage(opened_corpus(native.core(), os.fspath(path)))
+            stage = Stage(opened_corpus(native.core(), path))
             for unit, checksum in left:
                 progress.add(work(store, stage, unit, checksum))
-        counts = store.write_results(units) if collect else {}
-        if collect:
-            write_gallery(store.out)
+        counts = _collect(store, units, world) if collect else _counts(store.rows(mine, world))
     except OSError as error:
         store.refuse_full(error)
         raise
@@ -72,6 +69,37 @@ def run_batch(table: Path | str, out: Path | str, *, corpus: Path | str | None =
         store.close()
     return BatchResult(counts, len(left), {"predict": 0.0, "write": 0.0, **progress.seconds,
                                            "whole": time.perf_counter() - began}, lost)
+
+
+def collect_batch(table: Path | str, out: Path | str, *, corpus: Path | str | None = None) -> dict[str, int]:
+    """Makes no motion: `out`/results.csv and the gallery of what is there, and how many rows there are by status."""
+    units, world = units_in(read_table(Path(table))), _world(_corpus(corpus))
+    store = Store(Path(out))
+    try:
+        return _collect(store, units, world)
+    except OSError as error:
+        store.refuse_full(error)
+        raise
+    finally:
+        store.close()
+
+
+def _collect(store: Store, units: Sequence[Unit | BadRow], world: str) -> dict[str, int]:
+    rows = store.rows(units, world)
+    store.write_results(rows)
+    write_gallery(store.out)
+    return _counts(rows)
+
+
+def _counts(rows: Sequence[dict[str, object]]) -> dict[str, int]:
+    return dict(Counter(str(row["status"]) for row in rows))
+
+
+def _corpus(given: Path | str | None) -> str:
+    path = Path(given) if given else default_corpus()
+    if path is None:
+        raise ValueError("No corpus is given and none ships with this build of the add-on; choose a corpus file")
+    return os.fspath(path.absolute())
 
 
 def _world(corpus: str) -> str:

@@ -93,24 +93,24 @@ class Store:
             raise DiskFull(f"The disk of '{self.out}' is full ({free // 1024} KiB left); what was finished is kept: "
                            f"make room and start again")
 
-    def write_results(self, units: Iterable[Unit | BadRow], name: str = "results.csv") -> dict[str, int]:
-        """`results.csv` in the table's order, and how many there are of each status."""
-        counts: dict[str, int] = {}
+    def rows(self, units: Iterable[Unit | BadRow], world: str) -> list[dict[str, object]]:
+        """Of `results.csv`, in the order of `units`. world: what besides its row a motion depends on."""
+        return [self._row(unit, world) for unit in units]
+
+    def write_results(self, rows: Iterable[dict[str, object]], name: str = "results.csv") -> None:
         part = self.own / name
         with part.open("w", encoding="utf-8", newline="") as file:
-            rows = csv.DictWriter(file, COLUMNS, restval="", extrasaction="ignore", lineterminator="\n")
-            rows.writeheader()
-            for unit in units:
-                row = self._row(unit)
-                counts[str(row["status"])] = counts.get(str(row["status"]), 0) + 1
-                rows.writerow(row)
+            table = csv.DictWriter(file, COLUMNS, restval="", extrasaction="ignore", lineterminator="\n")
+            table.writeheader()
+            table.writerows(rows)
         os.replace(part, self.out / name)
-        return counts
 
-    def _row(self, unit: Unit | BadRow) -> dict[str, object]:
+    def _row(self, unit: Unit | BadRow, world: str) -> dict[str, object]:
         if isinstance(unit, BadRow):
             return {"id": unit.id, "status": "bad row", "reason": unit.reason}
         result = self.result(unit)
         if result is None:
             return {"id": unit.id, "status": "missing", "reason": "it has not been worked on"}
+        if result.get("checksum") != unit.checksum(world):
+            return {"id": unit.id, "status": "missing", "reason": "what is there is of another row, scene or corpus"}
         return {"id": unit.id, **result}
