@@ -10,12 +10,12 @@ import bpy
 from bpy_extras.io_utils import ImportHelper
 
 from .. import native
+from ..corpus_settings import refresh
 from ..subject_settings import core_sex
 from ..reachcast_corpus import importing
 from ..reachcast_corpus.importing import FileReport
 from ..reachcast_corpus.recordings import KINDS, ReadingOptions, find_files
 from ..scene.capture import capture_motion
-from .corpus_motions import refresh
 from .predict_motion import problem_of
 
 _REPORT = "Reachcast Import"  #: the text that lists what became of every file
