@@ -133,7 +133,7 @@ window_tests() {
   corpus=$(recorded_corpus) || { count window 0 1 0; return; }
   for file in blender_tests/test_*_window.py; do
     part=$(basename "$file" .py) status=0
-    run "$part" timeout 300 xvfb-run -a -s "-screen 0 1280x900x24" blender --factory-startup --enable-event-simulate \
+    run "$part" timeout 900 xvfb-run -a -s "-screen 0 1280x900x24" blender --factory-startup --enable-event-simulate \
       --window-geometry 0 0 1280 800 --python "$file" -- --out "$LOGS" ${corpus:+--corpus "$corpus"} || status=$?
     count_last_line "$part" "$status"
   done

@@ -9,7 +9,7 @@ import bpy
 from mathutils import Matrix
 
 from .movers import is_carrier
-from .predict_action import PredictionResult, predict_motion
+from .predict_action import PredictionResult, keep_all, predict_motion
 
 
 @dataclass(frozen=True)
@@ -43,9 +43,7 @@ def predict_to_targets(rig: bpy.types.Object, shelves: Sequence[bpy.types.Object
             failed.append((shelf.name, str(error)))
     if not results:
         raise ValueError(f"No target can be served; '{failed[0][0]}': {failed[0][1]}")
-    for result in results:
-        for name in filter(None, (result.action, result.box_action)):
-            bpy.data.actions[name].use_fake_user = True
+    keep_all(results)
     _take_up({rig: bpy.data.actions[results[0].action],
               **({box: bpy.data.actions[results[0].box_action]} if box else {})})
     return TargetsResult(tuple(results), tuple(failed))

@@ -10,7 +10,7 @@ import numpy as np
 from ..rigs.rotations import Array
 from .ghosts import add_ghost
 from .path_session import hold_points
-from .predict_action import PredictionResult, write_solved
+from .predict_action import PredictionResult, keep_all, write_solved
 from .prepare import Prepared, Solved, prepare, solve
 from .spread_tube import add_tube
 from .transforms import layer_of
@@ -59,6 +59,7 @@ def predict_variants(rig: bpy.types.Object, shelf: bpy.types.Object, *, count: i
         else:
             results.append(add_ghost(prepared, solved, rig, box, what, first, place * spacing, collection, layer))
     if collection is None:
+        keep_all(results)
         rig.animation_data.action = bpy.data.actions[results[0].action]
         if box is not None:
             box.animation_data.action = bpy.data.actions[results[0].box_action]
