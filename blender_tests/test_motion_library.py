@@ -8,6 +8,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 from reachcast import native
 from reachcast.corpora import default_corpus
 from reachcast.reachcast_corpus.exporting import export_motion
@@ -15,7 +16,6 @@ from reachcast.reachcast_corpus.importing import open_or_create
 from reachcast.rigs.joints import INDEX, JOINTS
 from reachcast.scene.capture import capture_motion, captured_clip
 from reachcast.scene.measure import sample
-from mathutils import Matrix
 from reachcast.scene import target_cloud
 from reachcast.scene.motion_library import forget_motions, play_motion, target_points
 from reachcast.scene.read_rig import read_rig
