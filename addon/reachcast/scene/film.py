@@ -58,11 +58,11 @@ def write_film(pictures: Sequence[Path], size: tuple[int, int], rate: float, pat
 
 
 def write_contact_sheet(moments: Sequence[Moment], pictures: dict[int, Path], size: tuple[int, int],
-                        path: Path) -> None:
-    """Three pictures a row, of `size` or smaller; under each what it shows."""
+                        path: Path, most_columns: int = COLUMNS) -> None:
+    """Pictures in rows, of `size` or smaller; under each what it shows."""
     scale = min(1.0, PANEL_WIDTH / size[0])
     panel = round(size[0] * scale), round(size[1] * scale)
-    columns = min(COLUMNS, len(moments))
+    columns = min(most_columns, len(moments))
     rows = -(-len(moments) // columns)
     step = panel[0] + 2 * GAP, panel[1] + 2 * GAP + CAPTION
     sheet = columns * step[0], rows * step[1]
@@ -97,8 +97,9 @@ def _add_text(scene: bpy.types.Scene, caption: Caption, size: tuple[int, int], c
 
 def _write_still(scene: bpy.types.Scene, path: Path) -> None:
     scene.frame_end = 1
-    scene.render.filepath = os.fspath(path)
-    bpy.ops.render.render(write_still=True, scene=scene.name)
+    scene.render.filepath = os.fspath(path.with_suffix("")) + "-"
+    bpy.ops.render.render(animation=True, scene=scene.name)  # a still is of the window's scene's frame
+    path.with_name(f"{path.stem}-0001.png").replace(path)
 
 
 def _add_panel(scene: bpy.types.Scene, picture: Path, channel: int, scale: float, middle: tuple[float, float]) -> None:
