@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # All tests, native and in Blender. Ends in one line: N passed, N failed, N skipped. Logs stay in build/logs.
 #
-#     bash blender_tests/run.sh [PART...]      parts: native sanitized python blender window lift slurm (these by default),
+#     bash blender_tests/run.sh [PART...]      parts: sanitized python blender window lift slurm (these by default), native,
 #                                              bench
+#
+# sanitized and native are the same tests, with sanitizers and as released: one of them is enough for every run.
 #
 # Recordings are looked for in $REACHCAST_MOCAP, else in ../shared/mocap beside the project; without them tests skip.
 set -euo pipefail
@@ -133,7 +135,7 @@ window_tests() {
   corpus=$(recorded_corpus) || { count window 0 1 0; return; }
   for file in blender_tests/test_*_window.py; do
     part=$(basename "$file" .py) status=0
-    run "$part" timeout 300 xvfb-run -a -s "-screen 0 1280x900x24" blender --factory-startup --enable-event-simulate \
+    run "$part" timeout 900 xvfb-run -a -s "-screen 0 1280x900x24" blender --factory-startup --enable-event-simulate \
       --window-geometry 0 0 1280 800 --python "$file" -- --out "$LOGS" ${corpus:+--corpus "$corpus"} || status=$?
     count_last_line "$part" "$status"
   done
@@ -183,12 +185,12 @@ slurm_test() {
 
 main() {
   local part parts=("$@")
-  [ ${#parts[@]} -gt 0 ] || parts=(native sanitized python blender window lift slurm)
+  [ ${#parts[@]} -gt 0 ] || parts=(sanitized python blender window lift slurm)
   mkdir -p "$LOGS"
   WORK=$(mktemp -d)
   trap 'rm -rf "$WORK"' EXIT
   need_packages "${RUN_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
-  build_release all
+  build_release reachcast_core reachcast_simulate
   for part in "${parts[@]}"; do
     case $part in
       native) native_tests native release ;;

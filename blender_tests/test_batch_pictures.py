@@ -22,7 +22,7 @@ from reachcast.batch.run import run_batch
 from reachcast.batch.stage import Stage
 from reachcast.batch.tasks import read_task, units_of
 from reachcast.corpora import default_corpus, opened_corpus
-from reachcast.scene.film import CAPTION, GAP, PANEL_WIDTH
+from reachcast.scene.film import CAPTION, GAP, PANEL_WIDTH, Moment, write_contact_sheet
 from reachcast.scene.measure import sample
 from reachcast.scene.predict_action import write_solved
 from reachcast.scene.prepare import solve
@@ -102,6 +102,19 @@ class Pictures(unittest.TestCase):
                 shown = item.evaluated_get(graph)
                 found += [tuple(shown.matrix_world @ vertex.co) for vertex in list(shown.data.vertices)[::7]]
         return np.array(found)
+
+    def test_a_sheet_is_the_same_whatever_the_scenes_frame(self) -> None:
+        folder = self.folder
+        image = bpy.data.images.new("grey", 40, 30)
+        image.filepath_raw, image.file_format = os.fspath(folder / "grey.png"), "PNG"
+        image.save()
+        sheets = []
+        for frame in (1, 40):
+            bpy.context.scene.frame_set(frame)
+            write_contact_sheet([Moment(0, "a")], {0: folder / "grey.png"}, (40, 30), folder / "sheet.png")
+            sheets.append(pixels(folder / "sheet.png"))
+        np.testing.assert_array_equal(*sheets)
+        self.assertGreater(sheets[0].max(), 0.9)  # paper
 
     def test_frames_film_and_sheet_show_the_same(self) -> None:
         row, = self.run_rows({"id": "a", **SMALL, "outputs": "png mp4 sheet", "frame_step": 10})

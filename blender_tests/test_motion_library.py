@@ -8,6 +8,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 from reachcast import native
 from reachcast.corpora import default_corpus
 from reachcast.reachcast_corpus.exporting import export_motion
@@ -15,6 +16,7 @@ from reachcast.reachcast_corpus.importing import open_or_create
 from reachcast.rigs.joints import INDEX, JOINTS
 from reachcast.scene.capture import capture_motion, captured_clip
 from reachcast.scene.measure import sample
+from reachcast.scene import target_cloud
 from reachcast.scene.motion_library import forget_motions, play_motion, target_points
 from reachcast.scene.read_rig import read_rig
 from rig_cases import RIGS
@@ -77,6 +79,41 @@ class MotionLibrary(unittest.TestCase):
         recorded = np.array([motion.target for motion in self.shipped.motions() if motion.phase == "transfer"])
         for place in recorded[::97]:
             self.assertLess(np.linalg.norm(places - place, axis=1).min(), 0.01)
+
+    def test_drawn_targets_follow_the_phase_the_rig_and_where_it_stands(self) -> None:
+        settings, listing = bpy.context.scene.reachcast, bpy.context.window_manager.reachcast_motions
+
+        def assert_drawn(phase: str | None) -> None:
+            bpy.context.view_layer.update()
+            np.testing.assert_allclose(target_cloud.shown_points(), target_points(self.shipped, settings.rig, phase),
+                                       atol=1e-5)
+
+        self.addCleanup(setattr, listing, "show_targets", False)
+        self.addCleanup(setattr, listing, "phase", "ALL")
+        listing.show_targets = True
+        assert_drawn(None)
+        settings.rig = self.rig
+        assert_drawn(None)
+        listing.phase = "retrieve"
+        assert_drawn("retrieve")
+        self.rig.matrix_world = Matrix.Translation((1.0, -2.0, 0.5)) @ Matrix.Rotation(0.8, 4, "Z") @ Matrix.Scale(0.9, 4)
+        assert_drawn("retrieve")
+        settings.corpus = self.own_corpus(6)
+        with self.core.Corpus.open(settings.corpus) as corpus:
+            np.testing.assert_allclose(target_cloud.shown_points(), target_points(corpus, self.rig, "retrieve"),
+                                       atol=1e-5)
+        settings.corpus = str(self.folder / "none.sqlite")
+        self.assertIn("none.sqlite", bpy.context.window_manager.reachcast_problem)
+        settings.corpus = ""
+        self.assertEqual(bpy.context.window_manager.reachcast_problem, "")
+
+    def test_the_list_follows_the_phase(self) -> None:
+        listing = bpy.context.window_manager.reachcast_motions
+        bpy.ops.reachcast.list_motions()
+        self.addCleanup(setattr, listing, "phase", "ALL")
+        for phase in ("return", "reach"):
+            listing.phase = phase
+            self.assertEqual({row.phase for row in listing.rows}, {phase})
 
     def test_list_play_and_forget_from_the_panel(self) -> None:
         settings, listing = bpy.context.scene.reachcast, bpy.context.window_manager.reachcast_motions

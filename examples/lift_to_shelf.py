@@ -27,7 +27,6 @@ sys.path[:0] = [os.fspath(HERE.parent / "addon"), os.fspath(HERE)]
 import addon_utils  # noqa: E402
 import bpy  # noqa: E402
 import numpy as np  # noqa: E402
-from mathutils import Vector  # noqa: E402
 
 addon_utils.enable("reachcast")
 
@@ -40,6 +39,7 @@ from reachcast.scene.read_task import read_box  # noqa: E402
 
 FRAME_RATE = 24
 FIRST_FRAME = 1
+LAST_FRAME_SECONDS = 0.8  # the film rests on its last frame
 PHASES = ("reach", "transfer", "return")
 RESULTS = ("lift.blend", "lift.mp4", "contact_sheet.png", "report.json")
 
@@ -145,9 +145,7 @@ def furnish(stage: Stage, options: argparse.Namespace) -> None:
     seen = [stage.box, *stage.furniture, *(item for item in stage.worker.children if item.type == "MESH")]
     points = render.bounds_over(seen, range(scene.frame_start, scene.frame_end + 1, 3))
     toward_left = options.x >= 0.0  # the shelf is not between the camera and the worker
-    render.add_studio(Vector(points.min(axis=0) + points.max(axis=0)) / 2.0, toward_left)
-    render.set_render(options.quick)
-    render.add_camera(points, toward_left)
+    render.furnish(points, toward_left, quick=options.quick)
     render.look_through_camera()
     scene.frame_set(scene.frame_start)
 
@@ -162,9 +160,12 @@ def write_results(draft: Path, stage: Stage, result: PredictionResult, options: 
     shown = moments(result)
     step = render.QUICK_STEP if options.quick else 1
     frames = sorted({*range(FIRST_FRAME, result.frames["end"] + 1, step), *(moment.frame for moment in shown)})
-    pictures = render.render_frames(draft, frames)
-    render.write_film([pictures[frame] for frame in frames], FRAME_RATE / step, draft / "lift.mp4")
-    render.write_contact_sheet(shown, pictures, draft / "contact_sheet.png")
+    size = render.QUICK_SIZE if options.quick else render.SIZE
+    pictures = render.render_and_say(draft, frames)
+    with render.quiet(draft / "blender.log"):
+        render.write_film([pictures[frame] for frame in frames], size, FRAME_RATE / step, draft / "lift.mp4",
+                          rest=LAST_FRAME_SECONDS)
+        render.write_contact_sheet(shown, pictures, size, draft / "contact_sheet.png")
     return said
 
 

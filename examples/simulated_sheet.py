@@ -98,12 +98,8 @@ def draw_row(core, corpus, row: str, view: float, path: Path) -> str:
     scene.frame_set(1)
     meshes = [item for item in scene.objects if item.type == "MESH"]
     points = render.bounds_over(meshes, [1])
-    render.add_studio(Vector(points.min(axis=0) + points.max(axis=0)) / 2.0, False)
-    render.set_render(False)
-    scene.render.resolution_x, scene.render.resolution_y = PANEL
-    render.CAMERA_SIDE_DEG = view
-    render.add_camera(points, False)
-    with tempfile.TemporaryDirectory() as folder:
+    render.furnish(points, False, size=PANEL, side_deg=view)
+    with tempfile.TemporaryDirectory() as folder, render.quiet():
         render.render_frames(Path(folder), [1])[1].replace(path)
     age, sex = motion.subject.age, "woman" if motion.subject.sex == "female" else "man"
     return f"{sex} of {motion.subject.stature:.2f} m, {age:.0f} years: {motion.phase}, {motion.duration:.1f} s, {motion.origin}"

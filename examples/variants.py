@@ -18,7 +18,6 @@ sys.path[:0] = [os.fspath(HERE.parent / "addon"), os.fspath(HERE)]
 
 import addon_utils  # noqa: E402
 import bpy  # noqa: E402
-from mathutils import Vector  # noqa: E402
 
 addon_utils.enable("reachcast")
 
@@ -63,11 +62,10 @@ def main() -> None:
     shown = [item for item in scene.objects if item.type == "MESH"]
     middle = (lift_off + placed) // 2
     points = render.bounds_over(shown, range(lift_off, placed, 4))
-    render.add_studio(Vector(points.min(axis=0) + points.max(axis=0)) / 2.0, toward_left=False)
-    render.set_render(quick=False)
-    render.add_camera(points, toward_left=False)
+    render.furnish(points, toward_left=False)
     bpy.ops.wm.save_as_mainfile(filepath=os.fspath(options.out / "variants.blend"), check_existing=False)
-    render.render_frames(options.out, [middle])[middle].replace(options.out / "variants.png")
+    with render.quiet():
+        render.render_frames(options.out, [middle])[middle].replace(options.out / "variants.png")
     print(f"{len(found.results)} variants, seeds {found.seeds}; not possible: {dict(found.failed) or 'none'}")
 
 

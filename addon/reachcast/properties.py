@@ -9,6 +9,7 @@ import bpy
 
 from . import native
 from .corpora import default_corpus
+from .corpus_settings import follow_choice
 from .scene.control_rig import CHOICES
 from .scene.movers import HOLD
 from .scene.read_rig import recognise
@@ -45,7 +46,7 @@ ERRANDS = {
 
 class ReachcastSettings(SubjectSettings, bpy.types.PropertyGroup):
     rig: bpy.props.PointerProperty(
-        name="Rig", type=bpy.types.Object, poll=_is_armature, description="The armature that carries the box")
+        name="Rig", type=bpy.types.Object, poll=_is_armature, update=follow_choice, description="The armature that carries the box")
     errand: bpy.props.EnumProperty(
         name="Errand", default="LIFT", description="What the person does, from the first frame to the last",
         items=(("LIFT", "Lift", "Hands on the box at its home; carries it to the shelf and lets go"),
@@ -108,7 +109,7 @@ class ReachcastSettings(SubjectSettings, bpy.types.PropertyGroup):
         description="Put the new Actions on new NLA tracks above the others, as Push Down does, and leave no Action active. "
                     "Of several the first plays and the others' tracks are muted")
     corpus: bpy.props.StringProperty(
-        name="Corpus", subtype="FILE_PATH",
+        name="Corpus", subtype="FILE_PATH", update=follow_choice,
         description="The file of motions to learn from; empty takes the one that ships with the add-on, which is "
                     "simulated: nobody was recorded for it")
     bone_map: bpy.props.StringProperty(

@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 
 from ..rigs.joints import JOINTS
+from ..scene.blender_versions import one_gltf_animation
 from ..scene.carry import carriers_of
 from ..scene.predict_action import write_solved
 from ..scene.prepare import Prepared, Solved
@@ -107,10 +108,11 @@ def _write_from_scene(work: Work, folder: Path, wanted: set[str]) -> list[str]:
 
 
 def _write_gltf(work: Work, path: Path) -> None:
-    """The rig, what it wears and the box, by Blender's exporter."""
+    """The rig, what it wears and the box, by Blender's exporter, as one animation."""
     rig, box, scene = work.worker.rig, work.load.box, bpy.context.scene
     scene.frame_start, scene.frame_end = FIRST_FRAME, FIRST_FRAME + len(work.solved.joints) - 1
     for item in bpy.context.view_layer.objects:
         item.select_set(item in (rig, box) or item.parent == rig)
     bpy.ops.export_scene.gltf(filepath=str(path), export_format="GLB", use_selection=True, export_animations=True,
-                              export_frame_range=True, export_force_sampling=True, export_yup=True)
+                              export_frame_range=True, export_force_sampling=True, export_yup=True,
+                              **one_gltf_animation())

@@ -24,7 +24,7 @@ from .table import BadRow, read_table, units_in
 from .tasks import Unit
 from .unit_work import work
 
-VERSION = 1   #: of what the same task is turned into; a new one makes every task be done again
+VERSION = 2   #: of what the same task is turned into; a new one makes every task be done again
 
 
 @dataclass(frozen=True)

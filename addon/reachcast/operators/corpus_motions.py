@@ -6,26 +6,13 @@ from typing import Any
 import bpy
 
 from .. import native
-from ..corpora import opened_corpus
-from ..corpus_settings import corpus_path, fill
-from ..scene import target_cloud
-from ..scene.motion_library import forget_motions, play_motion, target_points
+from ..corpus_settings import corpus_path, refresh
+from ..scene.motion_library import forget_motions, play_motion
 from .predict_motion import problem_of, summary
 
 
 def listing_of(context: bpy.types.Context) -> Any:
     return context.window_manager.reachcast_motions
-
-
-def refresh(context: bpy.types.Context) -> int:
-    """Lists the motions of the panel's corpus and moves the drawn points. Returns how many motions there are."""
-    settings, listing = context.scene.reachcast, listing_of(context)
-    corpus = opened_corpus(native.core(), corpus_path(settings))
-    fill(listing, corpus)
-    phase = None if listing.phase == "ALL" else listing.phase
-    target_cloud.set_points(target_points(corpus, settings.rig, phase))
-    target_cloud.show(listing.show_targets, context)
-    return listing.total
 
 
 def _active_row(context: bpy.types.Context) -> Any:

@@ -10,12 +10,12 @@ import bpy
 from bpy_extras.io_utils import ImportHelper
 
 from .. import native
+from ..corpus_settings import refresh
 from ..subject_settings import core_sex
 from ..reachcast_corpus import importing
 from ..reachcast_corpus.importing import FileReport
 from ..reachcast_corpus.recordings import KINDS, ReadingOptions, find_files
 from ..scene.capture import capture_motion
-from .corpus_motions import refresh
 from .predict_motion import problem_of
 
 _REPORT = "Reachcast Import"  #: the text that lists what became of every file
@@ -42,6 +42,7 @@ class REACHCAST_OT_import_motions(_ToOwnCorpus, bpy.types.Operator, ImportHelper
     bl_label = "Import Motions"
     bl_description = ("Cut reaches out of recordings (BVH, C3D, TRC, AMC, CSV) and add them to the corpus. A file is "
                       "stored as a whole or not at all; Esc keeps what is finished")
+    bl_options = {"UNDO"}
 
     filter_glob: bpy.props.StringProperty(default=";".join(f"*{kind}" for kind in KINDS), options={"HIDDEN"})
     files: bpy.props.CollectionProperty(type=bpy.types.OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"})
@@ -134,6 +135,7 @@ class REACHCAST_OT_capture_motion(_ToOwnCorpus, bpy.types.Operator):
     bl_label = "Capture Rig's Motion"
     bl_description = ("Add what the rig does in the scene's frame range to the corpus, whatever file it came from: the "
                       "way in for FBX, glTF and USD")
+    bl_options = {"UNDO"}
 
     phase: bpy.props.EnumProperty(
         name="Phase", default="FIND", description="What the frames are",

@@ -5,12 +5,14 @@ import bpy
 
 from ..people import Person
 from ..properties import missing
-from ..scene.family import predict_family
+from ..scene.family import FamilyResult, family_steps
+from ..scene.steps import Steps
 from ..subject_settings import core_sex
-from .predict_motion import problem_of, task_of
+from .predict_motion import task_of
+from .stepwise import Stepwise
 
 
-class REACHCAST_OT_predict_family(bpy.types.Operator):
+class REACHCAST_OT_predict_family(Stepwise, bpy.types.Operator):
     bl_idname = "reachcast.predict_family"
     bl_label = "Predict Family"
     bl_description = ("Do the same task with mannequins of the 5th, 50th and 95th percentile woman and man, side by "
@@ -27,19 +29,14 @@ class REACHCAST_OT_predict_family(bpy.types.Operator):
             cls.poll_message_set(reason)
         return reason is None
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            found = predict_family(**task_of(context), spacing=self.spacing)
-        except (ValueError, RuntimeError) as error:
-            return problem_of(self, context, error)
-        context.window_manager.reachcast_problem = ""
+    def steps(self, context: bpy.types.Context) -> Steps[FamilyResult]:
+        return family_steps(**task_of(context), spacing=self.spacing)
+
+    def finish(self, context: bpy.types.Context, found: FamilyResult) -> str:
         if found.failed:
             person, reason = found.failed[0]
-            self.report({"WARNING"}, f"{len(found.results)} can do it, {len(found.failed)} cannot; the "
-                                     f"{person}: {reason}")
-        else:
-            self.report({"INFO"}, f"All {len(found.results)} can do it; see collection '{found.collection}'")
-        return {"FINISHED"}
+            return f"{len(found.results)} can do it, {len(found.failed)} cannot; the {person}: {reason}"
+        return f"{len(found.results)} can do it; see collection '{found.collection}'"
 
 
 class REACHCAST_OT_choose_percentile(bpy.types.Operator):

@@ -5,8 +5,10 @@ import bpy
 
 from ..properties import missing
 from ..scene.movers import HOLD
-from ..scene.several_targets import predict_to_targets
-from .predict_motion import problem_of, task_of
+from ..scene.several_targets import TargetsResult, target_steps
+from ..scene.steps import Steps
+from .predict_motion import publish, task_of
+from .stepwise import Stepwise
 
 
 def _shelves(context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -16,7 +18,7 @@ def _shelves(context: bpy.types.Context) -> list[bpy.types.Object]:
                    if item.type == "EMPTY" and HOLD not in item and item not in others), key=lambda item: item.name)
 
 
-class REACHCAST_OT_predict_targets(bpy.types.Operator):
+class REACHCAST_OT_predict_targets(Stepwise, bpy.types.Operator):
     bl_idname = "reachcast.predict_targets"
     bl_label = "Targets from Selection"
     bl_description = "Write one Action for each selected Empty, taken as the shelf"
@@ -31,16 +33,13 @@ class REACHCAST_OT_predict_targets(bpy.types.Operator):
             cls.poll_message_set(reason)
         return reason is None
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            found = predict_to_targets(shelves=_shelves(context), **{name: value for name, value in
-                                                                     task_of(context).items() if name != "shelf"})
-        except (ValueError, RuntimeError) as error:
-            return problem_of(self, context, error)
-        context.window_manager.reachcast_problem = ""
+    def steps(self, context: bpy.types.Context) -> Steps[TargetsResult]:
+        return target_steps(shelves=_shelves(context), **{name: value for name, value in task_of(context).items()
+                                                          if name != "shelf"})
+
+    def finish(self, context: bpy.types.Context, found: TargetsResult) -> str:
+        publish(self, context, found.results)
         if found.failed:
             shelf, reason = found.failed[0]
-            self.report({"WARNING"}, f"{len(found.results)} Actions; not to {len(found.failed)}, '{shelf}': {reason}")
-        else:
-            self.report({"INFO"}, f"{len(found.results)} Actions, one for each target")
-        return {"FINISHED"}
+            return f"{len(found.results)} Actions; not to {len(found.failed)}, '{shelf}': {reason}"
+        return f"{len(found.results)} Actions, one for each target"

@@ -42,6 +42,13 @@ def set_film(settings: bpy.types.ImageFormatSettings) -> None:
     settings.file_format = "FFMPEG"
 
 
+def one_gltf_animation() -> dict[str, object]:
+    """Options of the glTF exporter by which the Actions that objects have now become one animation."""
+    if "export_animation_mode" in bpy.ops.export_scene.gltf.get_rna_type().properties:
+        return {"export_animation_mode": "ACTIVE_ACTIONS"}
+    return {"export_nla_strips": False}
+
+
 def strips_of(scene: bpy.types.Scene) -> bpy.types.bpy_prop_collection:
     """The strips of the scene's sequencer, which is made; 4.4 gave them another name."""
     editor = scene.sequence_editor_create()

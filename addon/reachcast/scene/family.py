@@ -16,6 +16,7 @@ from .mannequin import build_mannequin
 from .predict_action import PredictionResult
 from .prepare import prepare, solve
 from .read_rig import read_rig
+from .steps import Progress, Steps, run_to_end
 from .transforms import layer_of
 
 
@@ -26,17 +27,22 @@ class FamilyResult:
     collection: str
 
 
-def predict_family(rig: bpy.types.Object, shelf: bpy.types.Object, *, members: Sequence[Person] = FAMILY,
-                   spacing: float = 1.2, box: bpy.types.Object | None = None, start_frame: int | None = None,
-                   scene: bpy.types.Scene | None = None, bone_map: object = None, stature: float | None = None,
-                   sex: str | None = None, mass: float | None = None, **options: object) -> FamilyResult:
+def predict_family(rig: bpy.types.Object, shelf: bpy.types.Object, **options: object) -> FamilyResult:
+    """All of `family_steps` at once."""
+    return run_to_end(family_steps(rig, shelf, **options))  # type: ignore[arg-type]
+
+
+def family_steps(rig: bpy.types.Object, shelf: bpy.types.Object, *, members: Sequence[Person] = FAMILY,
+                 spacing: float = 1.2, box: bpy.types.Object | None = None, start_frame: int | None = None,
+                 scene: bpy.types.Scene | None = None, bone_map: object = None, stature: float | None = None,
+                 sex: str | None = None, mass: float | None = None, **options: object) -> Steps[FamilyResult]:
     """Predicts the task of `predict_motion` for every member, on a mannequin of its stature and sex.
 
     Each is predicted where `rig` stands, with the same shelf and home, and then shown `spacing` metres farther to the
     rig's right, with a copy of the box, in a new collection; `rig` itself, its stature, sex and body mass
     are left out. Who
     cannot do it is named in `failed` with the reason and leaves nothing behind; ValueError when that is true of all,
-    or for bad input.
+    or for bad input. A step is a member.
     """
     if not members:
         raise ValueError("The family has no members; name at least one")
@@ -49,7 +55,9 @@ def predict_family(rig: bpy.types.Object, shelf: bpy.types.Object, *, members: S
     collection = bpy.data.collections.new(f"Family to {shelf.name}")
     scene.collection.children.link(collection)
     results, failed = [], []
-    for person in members:
+    for number, person in enumerate(members):
+        if (yield Progress(number, len(members))):
+            break
         worker = _mannequin(person, stand, collection)
         try:
             prepared = prepare(worker, shelf, box=box, scene=scene, stature=person.stature, sex=person.sex, **options)
@@ -63,6 +71,8 @@ def predict_family(rig: bpy.types.Object, shelf: bpy.types.Object, *, members: S
                                               collection, layer)))
     if not results:
         bpy.data.collections.remove(collection)
+        if not failed:
+            raise ValueError("The family was stopped before its first member was finished")
         raise ValueError(f"Nobody of the family can do it; the {failed[0][0]}: {failed[0][1]}")
     return FamilyResult(tuple(results), tuple(failed), collection.name)
 

@@ -16,6 +16,7 @@ from .render import leave_no_stamp
 COLUMNS = 3
 PANEL_WIDTH = 480             #: pixels, at most
 GAP, CAPTION = 6, 34          #: pixels between the panels and beneath them
+MOST_CAPTIONS = 100           #: at once: a sequencer has 128 channels
 PAPER, INK = (0.95, 0.957, 0.965), (0.125, 0.157, 0.188, 1.0)
 
 
@@ -25,6 +26,17 @@ class Moment:
 
     frame: int
     label: str
+
+
+@dataclass(frozen=True)
+class Caption:
+    """Text on a picture; x, y: pixels from its lower left corner to that of the text."""
+
+    text: str
+    x: float
+    y: float
+    size: int                                     #: pixels
+    colour: tuple[float, float, float, float]
 
 
 def write_film(pictures: Sequence[Path], size: tuple[int, int], rate: float, path: Path, rest: float = 0.0) -> None:
@@ -46,11 +58,11 @@ def write_film(pictures: Sequence[Path], size: tuple[int, int], rate: float, pat
 
 
 def write_contact_sheet(moments: Sequence[Moment], pictures: dict[int, Path], size: tuple[int, int],
-                        path: Path) -> None:
-    """Three pictures a row, of `size` or smaller; under each what it shows."""
+                        path: Path, most_columns: int = COLUMNS) -> None:
+    """Pictures in rows, of `size` or smaller; under each what it shows."""
     scale = min(1.0, PANEL_WIDTH / size[0])
     panel = round(size[0] * scale), round(size[1] * scale)
-    columns = min(COLUMNS, len(moments))
+    columns = min(most_columns, len(moments))
     rows = -(-len(moments) // columns)
     step = panel[0] + 2 * GAP, panel[1] + 2 * GAP + CAPTION
     sheet = columns * step[0], rows * step[1]
@@ -61,13 +73,33 @@ def write_contact_sheet(moments: Sequence[Moment], pictures: dict[int, Path], si
             left, top = number % columns * step[0] + GAP, sheet[1] - number // columns * step[1] - GAP
             _add_panel(scene, pictures[moment.frame], 2 * number + 2, scale,
                        (left + 0.5 * panel[0] - 0.5 * sheet[0], top - 0.5 * panel[1] - 0.5 * sheet[1]))
-            caption = add_caption(scene, moment.label, 2 * number + 3, 1)
-            caption.font_size, caption.color = min(16, max(6, panel[0] // 18)), INK
-            caption.location = (left + 4) / sheet[0], (top - panel[1] - 0.75 * CAPTION) / sheet[1]
-            caption.blend_type = "ALPHA_OVER"
-        scene.frame_end = 1
-        scene.render.filepath = os.fspath(path)
-        bpy.ops.render.render(write_still=True, scene=scene.name)
+            _add_text(scene, Caption(moment.label, left + 4, top - panel[1] - 0.75 * CAPTION,
+                                     min(16, max(6, panel[0] // 18)), INK), sheet, 2 * number + 3)
+        _write_still(scene, path)
+
+
+def write_captioned(picture: Path, size: tuple[int, int], captions: Sequence[Caption], path: Path) -> None:
+    """The picture, of `size`, with text on it."""
+    for begin in range(0, len(captions), MOST_CAPTIONS):
+        with _sequence(size) as scene:
+            _add_panel(scene, path if begin else picture, 1, 1.0, (0.0, 0.0))
+            for number, caption in enumerate(captions[begin:begin + MOST_CAPTIONS]):
+                _add_text(scene, caption, size, number + 2)
+            _write_still(scene, path)
+
+
+def _add_text(scene: bpy.types.Scene, caption: Caption, size: tuple[int, int], channel: int) -> None:
+    strip = add_caption(scene, caption.text, channel, 1)
+    strip.font_size, strip.color = caption.size, caption.colour
+    strip.location = caption.x / size[0], caption.y / size[1]
+    strip.blend_type = "ALPHA_OVER"
+
+
+def _write_still(scene: bpy.types.Scene, path: Path) -> None:
+    scene.frame_end = 1
+    scene.render.filepath = os.fspath(path.with_suffix("")) + "-"
+    bpy.ops.render.render(animation=True, scene=scene.name)  # a still is of the window's scene's frame
+    path.with_name(f"{path.stem}-0001.png").replace(path)
 
 
 def _add_panel(scene: bpy.types.Scene, picture: Path, channel: int, scale: float, middle: tuple[float, float]) -> None:

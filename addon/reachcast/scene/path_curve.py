@@ -12,9 +12,11 @@ from ..rigs.rotations import Array
 
 _THICKNESS_M = 0.006
 _COLOUR = (1.0, 0.45, 0.05, 1.0)
+#: Custom property of a curve that is the path of the hands of a rig, whose name is its value.
+_PATH_OF = "reachcast_path_of"
 
 
-def add_path_curve(name: str, control: Array, collection: bpy.types.Collection) -> bpy.types.Object:
+def add_path_curve(name: str, control: Array, collection: bpy.types.Collection, rig: str) -> bpy.types.Object:
     data = bpy.data.curves.new(name, "CURVE")
     data.dimensions = "3D"
     data.resolution_u = 32
@@ -25,12 +27,20 @@ def add_path_curve(name: str, control: Array, collection: bpy.types.Collection) 
     for point in spline.bezier_points:
         point.handle_left_type = point.handle_right_type = "FREE"
     item = bpy.data.objects.new(name, data)
+    item[_PATH_OF] = rig
     item.color = _COLOUR
     item.show_in_front = True
     item.hide_render = True
     collection.objects.link(item)
     write_control(item, control)
     return item
+
+
+def remove_path_curves(rig: str) -> None:
+    """Takes away the curves of this rig's paths, also those that a file was saved with."""
+    data = [item.data for item in bpy.data.objects if item.get(_PATH_OF) == rig and item.library is None]
+    bpy.data.batch_remove([item for item in bpy.data.objects if item.data in data])
+    bpy.data.batch_remove([curve for curve in data if curve.users == 0])
 
 
 def read_control(item: bpy.types.Object) -> Array:

@@ -19,7 +19,7 @@ from ..rigs.joints import INDEX
 from ..rigs.rotations import Array
 from .action_writer import rewrite_action
 from .nla_strips import predicted_action
-from .path_curve import add_path_curve, read_control, write_control
+from .path_curve import add_path_curve, read_control, remove_path_curves, write_control
 from .carry import carried_channels
 from .predict_action import PredictionResult, describe, write_solved
 from .prepare import Prepared, Solved, prepare, solve
@@ -158,7 +158,7 @@ def begin_session(rig: bpy.types.Object, shelf: bpy.types.Object, *, home: bpy.t
                   **options: object) -> PathSession:
     """Predicts as `predict_motion` does and adds a curve for the path of every edited phase (numbers into `phases`;
     None: those that carry the box, or all when none does). Paths that were edited before in the rig's Action are taken
-    up again. live: no curves, `edited` is not looked at. ValueError when it cannot be done; nothing has then been
+    up again; curves that an earlier session left behind go. live: no curves, `edited` is not looked at. ValueError when it cannot be done; nothing has then been
     written."""
     scene = scene or bpy.context.scene
     layer = layer_of(scene)
@@ -177,10 +177,11 @@ def begin_session(rig: bpy.types.Object, shelf: bpy.types.Object, *, home: bpy.t
     session = PathSession(scene.name, rig.name, shelf.name, home.name if home else None, box.name if box else None,
                           result, prepared, durations, above, {}, _ends(phases))
     action = bpy.data.actions[result.action]
+    remove_path_curves(rig.name)
     for number in numbers:
         control = control_of(prepared, solved, number)
         control[1:3] = prepared.skeleton.to_world(inner[number])
-        curve = add_path_curve(f"Hand Path {phases[number].capitalize()}", control, scene.collection)
+        curve = add_path_curve(f"Hand Path {phases[number].capitalize()}", control, scene.collection, rig.name)
         session.curves[number] = curve.name
     layer.update()
     session.seen = {number: read_control(bpy.data.objects[name]) for number, name in session.curves.items()}

@@ -91,6 +91,13 @@ def write_solved(prepared: Prepared, solved: Solved, rig: bpy.types.Object, box:
     return describe(solved, rig.name, action, box_action, first)
 
 
+def keep_all(results: Iterable[PredictionResult]) -> None:
+    """Has every Action saved with the file, though only one of them can be active (fake user)."""
+    for result in results:
+        for name in filter(None, (result.action, result.box_action)):
+            bpy.data.actions[name].use_fake_user = True
+
+
 def describe(solved: Solved, rig: str, action: bpy.types.Action, box_action: bpy.types.Action | None,
              first: int) -> PredictionResult:
     """What was written from this, also as custom properties of the Action."""

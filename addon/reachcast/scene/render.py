@@ -85,8 +85,12 @@ def kept_render(scene: bpy.types.Scene) -> Iterator[None]:
         scene.frame_set(frames[3])
 
 
-def render_frames(folder: Path, frames: Sequence[int], scene: bpy.types.Scene | None = None) -> dict[int, Path]:
-    """`folder`/0001.png and so on, one picture for each of the rising `frames`. OSError when one is not there."""
+def render_frames(folder: Path, frames: Sequence[int], scene: bpy.types.Scene | None = None,
+                  suffix: str = "png") -> dict[int, Path]:
+    """`folder`/0001.png and so on, one picture for each of the rising `frames`. OSError when one is not there.
+
+    suffix: of the scene's file format.
+    """
     scene = scene or bpy.context.scene
     scene.render.filepath = os.fspath(folder) + os.sep
     scene.render.use_file_extension = scene.render.use_overwrite = True
@@ -94,7 +98,7 @@ def render_frames(folder: Path, frames: Sequence[int], scene: bpy.types.Scene | 
     for run in _runs(frames):
         scene.frame_start, scene.frame_end, scene.frame_step = run.start, run[-1], run.step
         bpy.ops.render.render(animation=True, scene=scene.name)
-    pictures = {frame: folder / f"{frame:04d}.png" for frame in frames}
+    pictures = {frame: folder / f"{frame:04d}.{suffix}" for frame in frames}
     for picture in pictures.values():
         if not picture.is_file() or not picture.stat().st_size:
             raise OSError(errno.EIO, f"Blender did not write the picture '{picture.name}'")

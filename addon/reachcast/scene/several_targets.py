@@ -9,7 +9,8 @@ import bpy
 from mathutils import Matrix
 
 from .movers import is_carrier
-from .predict_action import PredictionResult, predict_motion
+from .predict_action import PredictionResult, keep_all, predict_motion
+from .steps import Progress, Steps, run_to_end
 
 
 @dataclass(frozen=True)
@@ -18,13 +19,20 @@ class TargetsResult:
     failed: tuple[tuple[str, str], ...]      #: (shelf, why not)
 
 
-def predict_to_targets(rig: bpy.types.Object, shelves: Sequence[bpy.types.Object], *,
-                       box: bpy.types.Object | None = None, start_frame: int | None = None,
-                       scene: bpy.types.Scene | None = None, **options: object) -> TargetsResult:
+def predict_to_targets(rig: bpy.types.Object, shelves: Sequence[bpy.types.Object],
+                       **options: object) -> TargetsResult:
+    """All of `target_steps` at once."""
+    return run_to_end(target_steps(rig, shelves, **options))  # type: ignore[arg-type]
+
+
+def target_steps(rig: bpy.types.Object, shelves: Sequence[bpy.types.Object], *,
+                 box: bpy.types.Object | None = None, start_frame: int | None = None,
+                 scene: bpy.types.Scene | None = None, **options: object) -> Steps[TargetsResult]:
     """What `predict_motion` does, for every shelf: an Action each on the rig and on the box, the first of them active.
 
     All start at the same frame. A place that cannot be served is named in `failed`; ValueError when none can, or when
     there is none. Every Action is kept with the file (fake user), since only one can be active.
+    A step is a shelf.
     """
     if not shelves:
         raise ValueError("No targets are given; select the Empties on the shelves")
@@ -33,7 +41,9 @@ def predict_to_targets(rig: bpy.types.Object, shelves: Sequence[bpy.types.Object
     former = {item: item.animation_data.action if item.animation_data else None for item in (rig, box) if item}
     place = box.matrix_basis.copy() if box else None
     results, failed = [], []
-    for shelf in shelves:
+    for number, shelf in enumerate(shelves):
+        if (yield Progress(number, len(shelves))):
+            break
         _take_up(former)  # each motion begins from what the user had, not from the one before
         if box is not None and former[box] is None:
             _put_down(box, place)
@@ -41,11 +51,11 @@ def predict_to_targets(rig: bpy.types.Object, shelves: Sequence[bpy.types.Object
             results.append(predict_motion(rig, shelf, box=box, start_frame=first, scene=scene, **options))
         except ValueError as error:
             failed.append((shelf.name, str(error)))
+    if not results and not failed:
+        raise ValueError("Stopped before the first target was finished")
     if not results:
         raise ValueError(f"No target can be served; '{failed[0][0]}': {failed[0][1]}")
-    for result in results:
-        for name in filter(None, (result.action, result.box_action)):
-            bpy.data.actions[name].use_fake_user = True
+    keep_all(results)
     _take_up({rig: bpy.data.actions[results[0].action],
               **({box: bpy.data.actions[results[0].box_action]} if box else {})})
     return TargetsResult(tuple(results), tuple(failed))

@@ -10,9 +10,10 @@ import numpy as np
 from ..rigs.rotations import Array
 from .ghosts import add_ghost
 from .path_session import hold_points
-from .predict_action import PredictionResult, write_solved
+from .predict_action import PredictionResult, keep_all, write_solved
 from .prepare import Prepared, Solved, prepare, solve
 from .spread_tube import add_tube
+from .steps import Progress, Steps, run_to_end
 from .transforms import layer_of
 
 MOST_VARIANTS = 1000
@@ -30,40 +31,56 @@ class VariantsResult:
     tube: str | None
 
 
-def predict_variants(rig: bpy.types.Object, shelf: bpy.types.Object, *, count: int = 5, seed: int = 1,
-                     amount: float = 1.0, ghosts: bool = False, spacing: float = 1.0, tube: bool = True,
-                     box: bpy.types.Object | None = None, start_frame: int | None = None,
-                     scene: bpy.types.Scene | None = None, **options: object) -> VariantsResult:
+def predict_variants(rig: bpy.types.Object, shelf: bpy.types.Object, **options: object) -> VariantsResult:
+    """All of `variant_steps` at once."""
+    return run_to_end(variant_steps(rig, shelf, **options))  # type: ignore[arg-type]
+
+
+def variant_steps(rig: bpy.types.Object, shelf: bpy.types.Object, *, count: int = 5, seed: int = 1,
+                  amount: float = 1.0, ghosts: bool = False, spacing: float = 1.0, tube: bool = True,
+                  box: bpy.types.Object | None = None, start_frame: int | None = None,
+                  scene: bpy.types.Scene | None = None, **options: object) -> Steps[VariantsResult]:
     """`count` motions of the task that `predict_motion` would do, drawn from seeds seed, seed + 1, ...
 
     As Actions on the rig, the first of which is left active; with ghosts=True as copies of rig and box, `spacing`
     metres apart to the subject's right, each with an Action of its own. tube: a mesh about the mean path of the hands
     in every phase that carries the box (or in all), two standard deviations wide. A motion that this body cannot hold
-    is left out and named in `failed`; ValueError when that is true of all, or for bad input.
+    is left out and named in `failed`; ValueError when that is true of all, or for bad input. A step is a variant;
+    whoever stops gets no tube.
     """
     _check(count, seed, amount, spacing)
     scene = scene or bpy.context.scene
     layer = layer_of(scene)
     prepared = prepare(rig, shelf, box=box, scene=scene, **options)
     first = scene.frame_current if start_frame is None else int(start_frame)
-    wanted = range(seed, seed + count)
-    drawn, failed = _draw(prepared, wanted, amount)
-    if not drawn:
-        raise ValueError(f"None of the {count} variants can be done; with seed {seed}: {failed[0][1]}")
-    collection = _collection(f"Variants of {rig.name} to {shelf.name}", scene) if ghosts else None
-    results = []
-    for place, (number, solved) in enumerate(drawn, 1):
+    collection, is_stopped = None, False
+    drawn: list[tuple[int, Solved]] = []
+    failed: list[tuple[int, str]] = []
+    results: list[PredictionResult] = []
+    for number in range(seed, seed + count):
+        is_stopped = bool((yield Progress(number - seed, count)))
+        if is_stopped:
+            break
+        done, refused = _draw(prepared, range(number, number + 1), amount)
+        drawn, failed = drawn + done, failed + refused
         what = f"to {shelf.name} variant {number}"
-        if collection is None:
-            results.append(write_solved(prepared, solved, rig, box, what, first, layer))
-        else:
-            results.append(add_ghost(prepared, solved, rig, box, what, first, place * spacing, collection, layer))
+        if done and not ghosts:
+            results.append(write_solved(prepared, done[0][1], rig, box, what, first, layer))
+        elif done:
+            collection = collection or _collection(f"Variants of {rig.name} to {shelf.name}", scene)
+            results.append(add_ghost(prepared, done[0][1], rig, box, what, first, len(drawn) * spacing, collection,
+                                     layer))
+    if not drawn and not failed:
+        raise ValueError("The variants were stopped before the first was finished")
+    if not drawn:
+        raise ValueError(f"None of the {len(failed)} variants can be done; with seed {seed}: {failed[0][1]}")
     if collection is None:
+        keep_all(results)
         rig.animation_data.action = bpy.data.actions[results[0].action]
         if box is not None:
             box.animation_data.action = bpy.data.actions[results[0].box_action]
     mesh = None
-    if tube:
+    if tube and not is_stopped:
         more, _ = _draw(prepared, range(seed + count, seed + SPREAD_MOTIONS), amount)
         mesh = add_tube(f"Spread of {rig.name} to {shelf.name}", _paths([solved for _, solved in drawn + more]),
                         collection or scene.collection).name
