@@ -6,6 +6,7 @@ import os
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,7 +24,7 @@ from .table import BadRow, read_table, units_in
 from .tasks import Unit
 from .unit_work import work
 
-VERSION = 1   #: of what the same task is turned into; a new one makes every task be done again
+VERSION = 2   #: of what the same task is turned into; a new one makes every task be done again
 
 
 @dataclass(frozen=True)
@@ -58,9 +59,9 @@ def run_batch(table: Path | str, out: Path | str, *, corpus: Path | str | None =
         if jobs > 1 and left:
             lost = run_jobs(left, store, path, jobs, progress)
         elif left:
-            stage = Stage(opened_corpus(native.core(), path))
-            for unit, checksum in left:
-                progress.add(work(store, stage, unit, checksum))
+            with closing(Stage(opened_corpus(native.core(), path))) as stage:
+                for unit, checksum in left:
+                    progress.add(work(store, stage, unit, checksum))
         counts = _collect(store, units, world) if collect else _counts(store.rows(mine, world))
     except OSError as error:
         store.refuse_full(error)
