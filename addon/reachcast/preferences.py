@@ -28,7 +28,7 @@ class ReachcastPreferences(bpy.types.AddonPreferences):
     corpus_folders: bpy.props.CollectionProperty(
         name="Corpus Folders", type=CorpusFolder, description="Folders whose corpora are offered in the panel")
     stature: bpy.props.FloatProperty(
-        name="Stature", min=0.0, max=2.6, precision=2, subtype="DISTANCE", unit="LENGTH",
+        name="Stature", min=0.0, max=2.6, precision=4, subtype="DISTANCE", unit="LENGTH",
         description="Height of the usual person, for scenes that do not say another; 0 takes the rig's own")
     sex: bpy.props.EnumProperty(name="Sex", items=SEXES, description="Sex of the usual person")
     age: bpy.props.FloatProperty(name="Age", min=0.0, max=130.0, precision=0,
