@@ -2,7 +2,6 @@
 """Pictures of the examples, whose worker faces +y: the package's studio and camera, film and contact sheet by it."""
 from __future__ import annotations
 
-import os
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path

@@ -35,11 +35,11 @@ def set_sun(sun: bpy.types.SunLight, width: float) -> None:
         sun.contact_shadow_distance, sun.contact_shadow_thickness = 0.06, 0.03
 
 
-def set_film(settings: bpy.types.ImageFormatSettings) -> None:
-    """Pictures become a film, which 5.0 calls another medium."""
+def set_file_format(settings: bpy.types.ImageFormatSettings, form: str) -> None:
+    """PNG, OPEN_EXR, ... or FFMPEG, which 5.0 calls another medium."""
     if hasattr(settings, "media_type"):
-        settings.media_type = "VIDEO"
-    settings.file_format = "FFMPEG"
+        settings.media_type = {"FFMPEG": "VIDEO", "OPEN_EXR_MULTILAYER": "MULTI_LAYER_IMAGE"}.get(form, "IMAGE")
+    settings.file_format = form
 
 
 def one_gltf_animation() -> dict[str, object]:
@@ -55,11 +55,15 @@ def strips_of(scene: bpy.types.Scene) -> bpy.types.bpy_prop_collection:
     return editor.strips if hasattr(editor, "strips") else editor.sequences
 
 
+def add_effect(scene: bpy.types.Scene, kind: str, channel: int, length: int) -> bpy.types.Strip:
+    """A strip that begins at frame 1 and is `length` frames long, which 5.0 asks for instead of the end."""
+    until = {"length": length} if _VERSION >= (5, 0) else {"frame_end": 1 + length}
+    return strips_of(scene).new_effect(name=kind.capitalize(), type=kind, channel=channel, frame_start=1, **until)
+
+
 def add_caption(scene: bpy.types.Scene, text: str, channel: int, length: int) -> bpy.types.Strip:
     """A strip of text that begins at frame 1 and whose place is that of its lower left corner."""
-    where = {"name": text[:60], "type": "TEXT", "channel": channel, "frame_start": 1}
-    where |= {"length": length} if _VERSION >= (5, 0) else {"frame_end": 1 + length}
-    strip = strips_of(scene).new_effect(**where)
+    strip = add_effect(scene, "TEXT", channel, length)
     strip.text = text
     if hasattr(strip, "anchor_x"):
         strip.anchor_x, strip.anchor_y, strip.alignment_x = "LEFT", "BOTTOM", "LEFT"

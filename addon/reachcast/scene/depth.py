@@ -8,7 +8,7 @@ from pathlib import Path
 
 import bpy
 
-from .blender_versions import ENGINES
+from .blender_versions import ENGINES, set_file_format
 from .render import kept_render, render_frames
 
 _NAME = "Reachcast Depth"
@@ -24,7 +24,8 @@ def render_depth(folder: Path, frames: Sequence[int], scene: bpy.types.Scene | N
     with kept_render(scene), _depth_world(scene):
         scene.render.engine = ENGINES["CYCLES"]
         settings = scene.render.image_settings
-        settings.file_format, settings.color_mode, settings.color_depth = "OPEN_EXR", "RGB", "32"
+        set_file_format(settings, "OPEN_EXR")
+        settings.color_mode, settings.color_depth = "RGB", "32"
         return render_frames(folder, frames, scene, suffix="exr")
 
 
@@ -36,7 +37,7 @@ def _depth_world(scene: bpy.types.Scene) -> Iterator[None]:
     kept, worlds = {name: getattr(cycles, name) for name in names}, scene.world
     overrides = [layer.material_override for layer in layers]
     settings = scene.render.image_settings
-    form = settings.file_format, settings.color_mode, settings.color_depth
+    form, mode, bits = settings.file_format, settings.color_mode, settings.color_depth
     material, world = _material(), bpy.data.worlds.new(_NAME)
     world.use_nodes = False
     world.color = (0.0, 0.0, 0.0)
@@ -53,7 +54,8 @@ def _depth_world(scene: bpy.types.Scene) -> Iterator[None]:
         scene.world = worlds
         for name, value in kept.items():
             setattr(cycles, name, value)
-        settings.file_format, settings.color_mode, settings.color_depth = form
+        set_file_format(settings, form)
+        settings.color_mode, settings.color_depth = mode, bits
         bpy.data.materials.remove(material)
         bpy.data.worlds.remove(world)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import bpy
 
-from .blender_versions import add_caption, set_film, strips_of
+from .blender_versions import add_caption, add_effect, set_file_format, strips_of
 from .render import leave_no_stamp
 
 COLUMNS = 3
@@ -49,7 +49,7 @@ def write_film(pictures: Sequence[Path], size: tuple[int, int], rate: float, pat
         render = scene.render
         render.fps = max(1, round(rate))
         render.fps_base = render.fps / rate
-        set_film(render.image_settings)
+        set_file_format(render.image_settings, "FFMPEG")
         coding = render.ffmpeg
         coding.format, coding.codec, coding.audio_codec = "MPEG4", "H264", "NONE"
         coding.constant_rate_factor, coding.ffmpeg_preset, coding.gopsize = "HIGH", "GOOD", 12
@@ -67,8 +67,7 @@ def write_contact_sheet(moments: Sequence[Moment], pictures: dict[int, Path], si
     step = panel[0] + 2 * GAP, panel[1] + 2 * GAP + CAPTION
     sheet = columns * step[0], rows * step[1]
     with _sequence(sheet) as scene:
-        paper = strips_of(scene).new_effect(name="Paper", type="COLOR", channel=1, frame_start=1, frame_end=2)
-        paper.color = PAPER
+        add_effect(scene, "COLOR", 1, 1).color = PAPER
         for number, moment in enumerate(moments):
             left, top = number % columns * step[0] + GAP, sheet[1] - number // columns * step[1] - GAP
             _add_panel(scene, pictures[moment.frame], 2 * number + 2, scale,
@@ -119,7 +118,8 @@ def _sequence(size: tuple[int, int]) -> Iterator[bpy.types.Scene]:
         render = scene.render
         render.resolution_x, render.resolution_y = size
         render.resolution_percentage = 100
-        render.image_settings.file_format, render.image_settings.color_mode = "PNG", "RGB"
+        set_file_format(render.image_settings, "PNG")
+        render.image_settings.color_mode = "RGB"
         leave_no_stamp(scene)
         scene.frame_start = 1
         yield scene

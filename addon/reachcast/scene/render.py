@@ -12,7 +12,7 @@ from pathlib import Path
 
 import bpy
 
-from .blender_versions import ENGINES, set_eevee
+from .blender_versions import ENGINES, set_eevee, set_file_format
 
 #: Of light, per pixel. Without a graphics card every one costs about a second of processor time at 960 x 720.
 SAMPLES = {"EEVEE": 5, "WORKBENCH": 5, "CYCLES": 16}
@@ -39,7 +39,8 @@ def set_pictures(scene: bpy.types.Scene, engine: str, size: tuple[int, int]) -> 
     render.engine = ENGINES[engine]
     render.resolution_x, render.resolution_y = size
     render.resolution_percentage = 100
-    render.image_settings.file_format, render.image_settings.compression = "PNG", 15
+    set_file_format(render.image_settings, "PNG")
+    render.image_settings.compression = 15
     leave_no_stamp(scene)
     if engine == "CYCLES":
         scene.cycles.use_denoising = False
@@ -71,14 +72,16 @@ def set_look(scene: bpy.types.Scene, look: Look) -> None:
 def kept_render(scene: bpy.types.Scene) -> Iterator[None]:
     """Camera, frames and the main settings of rendering are put back."""
     render, frames = scene.render, (scene.frame_start, scene.frame_end, scene.frame_step, scene.frame_current)
-    kept, camera, form = {name: getattr(render, name) for name in _KEPT}, scene.camera, render.image_settings.file_format
+    kept, camera = {name: getattr(render, name) for name in _KEPT}, scene.camera
+    form, compression = render.image_settings.file_format, render.image_settings.compression
     view = scene.view_settings.view_transform, scene.view_settings.look, scene.view_settings.exposure
     try:
         yield
     finally:
         for name, value in kept.items():
             setattr(render, name, value)
-        render.image_settings.file_format = form
+        set_file_format(render.image_settings, form)
+        render.image_settings.compression = compression
         scene.camera = camera
         scene.view_settings.view_transform, scene.view_settings.look, scene.view_settings.exposure = view
         scene.frame_start, scene.frame_end, scene.frame_step = frames[:3]
