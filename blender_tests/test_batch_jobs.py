@@ -16,11 +16,15 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from unittest import mock
 
+import bpy
+import numpy as np
 from lift_cases import cuboid
 from reachcast.batch import unit_work
 from reachcast.batch.jobs import MOST_TRIES, JobsFailed
 from reachcast.batch.run import BatchResult, collect_batch, run_batch
+from reachcast.scene.action_writer import curves_of
 
+NORMALS = 1e-6   #: Blender's threads add up the normals of a mesh in no fixed order
 HOME = "0 0.42 0.1"
 ROWS = [{"id": f"r{number}", "stature": 1.6 + 0.1 * (number % 2), "home": HOME, "outputs": "csv bvh",
          "target": f"{0.005 * number:g} 0.45 0.9"} for number in range(40)]
@@ -30,6 +34,24 @@ def checksums(out: Path) -> dict[str, str]:
     """Of every file below `out`, by its path there."""
     return {os.fspath(path.relative_to(out)): hashlib.sha256(path.read_bytes()).hexdigest()
             for path in sorted(out.rglob("*")) if path.is_file()}
+
+
+def glb_of(path: Path) -> tuple[bytes, np.ndarray]:
+    """What a glTF file says, and its numbers."""
+    data = path.read_bytes()
+    begin = 20 + int.from_bytes(data[12:16], "little")
+    return data[:begin], np.frombuffer(data[begin + 8:], "<f4")
+
+
+def keys_of(path: Path) -> dict[str, object]:
+    """All that a file's Actions say: labels, channels, keys."""
+    with bpy.data.libraries.load(os.fspath(path)) as (there, here):
+        here.actions = list(there.actions)
+    said = {action.name: (sorted(action.items()), [(curve.data_path, curve.array_index, curve.group.name, [
+        (*point.co, point.interpolation) for point in curve.keyframe_points]) for curve in curves_of(action)])
+        for action in here.actions}
+    bpy.data.batch_remove(here.actions)
+    return said
 
 
 @contextlib.contextmanager
@@ -73,12 +95,23 @@ class Jobs(unittest.TestCase):
 
     def test_two_processes_make_what_one_makes(self) -> None:
         cuboid("Shelf", (0.3, 0.3, 0.02)).location = (0.1, 0.45, 1.0)  # not in any file: the workers get this scene
-        rows = [*ROWS, {"id": "named", "home": HOME, "target": "Shelf"}, {"id": "far", "target": "0 3 1"}]
+        rows = [*ROWS, {"id": "named", "home": HOME, "target": "Shelf"}, {"id": "far", "target": "0 3 1"},
+                *({**ROWS[0], "id": f"a{number}", "stature": 1.6 + 0.1 * number, "outputs": "action gltf"}
+                  for number in range(3))]
         self.run_rows(rows, self.folder / "one")
         found = self.run_rows(rows, jobs=2)
-        self.assertEqual((found.counts, found.worked, found.lost), ({"done": 41, "refused": 1}, 42, 0))
-        self.assertEqual(checksums(self.out), checksums(self.folder / "one"))
-        self.assertRegex(self.said[-1], r"^42 of 42, [\d.]+ a second, 0 s left$")
+        self.assertEqual((found.counts, found.worked, found.lost), ({"done": 44, "refused": 1}, 45, 0))
+        self.assertRegex(self.said[-1], r"^45 of 45, [\d.]+ a second, 0 s left$")
+        one, other = checksums(self.folder / "one"), checksums(self.out)
+        for name in [name for name in one if name.endswith(".blend")]:  # a .blend has addresses of memory in it
+            self.assertEqual(keys_of(self.folder / "one" / name), keys_of(self.out / name))
+            del one[name], other[name]
+        for name in [name for name in one if name.endswith(".glb")]:
+            said, numbers = glb_of(self.folder / "one" / name)
+            self.assertEqual(glb_of(self.out / name)[0], said)
+            np.testing.assert_allclose(glb_of(self.out / name)[1], numbers, atol=NORMALS)
+            del one[name], other[name]
+        self.assertEqual(other, one)
 
     def test_killed_processes_leave_their_motions_to_others(self) -> None:
         self.run_rows(ROWS, self.folder / "one")

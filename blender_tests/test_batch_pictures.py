@@ -75,7 +75,7 @@ class Pictures(unittest.TestCase):
                 ("0.5 0.4 1.3", 1.9, (96, 64), "reach transfer return"), ("-0.6 0.2 0.4", 1.5, (64, 128), "transfer"),
                 ("0 0.5 0.9", 1.7, (128, 64), "reach transfer return reach retrieve"))):
             task = read_task({"home": HOME, "target": target, "stature": stature, "phases": phases,
-                              "resolution": list(size)}, number + 1)
+                              "resolution": list(size), "outputs": "sheet"}, number + 1)
             prepared, worker, load = stage.prepared(units_of(task)[0])
             solved = solve(prepared)
             write_solved(prepared, solved, worker.rig, load.box, "seen", 1, bpy.context.view_layer)

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..rigs.joints import JOINTS
 from ..scene.blender_versions import one_gltf_animation
+from ..scene.carry import carriers_of
 from ..scene.predict_action import write_solved
 from ..scene.prepare import Prepared, Solved
 from .bvh import write_bvh
@@ -74,13 +75,16 @@ _HEADER = (",".join(["time_s", *(f"{name}_{axis}" for name in JOINTS for axis in
 
 
 def _write_from_scene(work: Work, folder: Path, wanted: set[str]) -> list[str]:
-    """What needs the Actions in Blender. They are taken out of the file afterwards: memory does not grow."""
+    """What needs the Actions in Blender. Afterwards the scene is as it was: memory does not grow, and no task sees
+    which ones came before."""
     rig, box = work.worker.rig, work.load.box
     kept = {item: item.animation_data.action if item.animation_data else None for item in (rig, box)}
+    carriers = {constraint.name for constraint in carriers_of(box)}
     written: list[Any] = []
     files = []
     try:
-        result = write_solved(work.prepared, work.solved, rig, box, work.unit.id, FIRST_FRAME, bpy.context.view_layer)
+        result = write_solved(work.prepared, work.solved, rig, box, work.unit.id, FIRST_FRAME, bpy.context.view_layer,
+                              work.load.above)
         written = [bpy.data.actions[name] for name in (result.action, result.box_action) if name]
         if "action" in wanted:
             bpy.data.libraries.write(str(folder / "action.blend"), set(written), fake_user=True)
@@ -97,6 +101,9 @@ def _write_from_scene(work: Work, folder: Path, wanted: set[str]) -> list[str]:
                 item.animation_data.action = action
         for action in written:
             bpy.data.actions.remove(action)
+        for constraint in carriers_of(box):
+            if constraint.name not in carriers:  # the next task's Action has no channels of this one's rig
+                box.constraints.remove(constraint)
     return files
 
 

@@ -6,6 +6,7 @@ import os
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -58,9 +59,9 @@ def run_batch(table: Path | str, out: Path | str, *, corpus: Path | str | None =
         if jobs > 1 and left:
             lost = run_jobs(left, store, path, jobs, progress)
         elif left:
-            stage = Stage(opened_corpus(native.core(), path))
-            for unit, checksum in left:
-                progress.add(work(store, stage, unit, checksum))
+            with closing(Stage(opened_corpus(native.core(), path))) as stage:
+                for unit, checksum in left:
+                    progress.add(work(store, stage, unit, checksum))
         counts = _collect(store, units, world) if collect else _counts(store.rows(mine, world))
     except OSError as error:
         store.refuse_full(error)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -14,16 +13,18 @@ from mathutils import Vector
 from .. import native
 from ..rigs.rotations import Array
 from ..rigs.skeleton import Skeleton
-from ..scene.mannequin import build_mannequin
+from ..scene.carry import remove_holds
+from ..scene.mannequin import build_mannequin, dress_mannequin
 from ..scene.prepare import Prepared, refuse_owners
 from ..scene.read_rig import read_rig
 from ..scene.read_task import BOX_MASS, BoxShape, lift_between, read_box, standing
-from ..scene.transforms import Placement, placement
+from ..scene.transforms import Placement, above_matrix, placement
 from .tasks import Task, Unit
 
 DEFAULT_STATURE = 1.75
 DEFAULT_BOX = (0.35, 0.30, 0.25)
-MOST_KEPT = 8   #: rigs or boxes that were made for tasks and stay in the scene
+MOST_KEPT_BOXES = 8   #: that were made for tasks and stay in the scene
+WITHOUT_SURFACES = frozenset({"csv", "bvh", "action"})   #: outputs for which a mannequin is an armature only
 
 
 @dataclass(frozen=True)
@@ -36,9 +37,13 @@ class Worker:
 class Load:
     box: bpy.types.Object
     shape: BoxShape
+    above: Array      #: (4, 4): world = above @ the box's own transform
 
 
-def person_of(task: Task) -> tuple[object, ...]:
+Person = tuple[object, ...]
+
+
+def person_of(task: Task) -> Person:
     """Tasks with the same one are done by the same rig."""
     return (task.rig, None if task.rig else (task.stature or DEFAULT_STATURE), None if task.rig else task.sex)
 
@@ -49,9 +54,10 @@ class Stage:
     def __init__(self, corpus: Any) -> None:
         self.corpus, self.scene = corpus, bpy.context.scene
         self.frame_rate = self.scene.render.fps / self.scene.render.fps_base
-        self._workers: dict[Hashable, Worker] = {}
-        self._loads: dict[Hashable, Load] = {}
+        self._workers: dict[Person, Worker] = {}
+        self._loads: dict[tuple[Person, object, float | None], Load] = {}
         self._checked: set[tuple[str, str]] = set()
+        self._places: dict[str, Placement] = {}
 
     def prepared(self, unit: Unit) -> tuple[Prepared, Worker, Load]:
         """Everything `solve` needs. ValueError in one sentence."""
@@ -73,10 +79,16 @@ class Stage:
             options["variation"] = {"seed": unit.seed}
         return Prepared(skeleton, lift, subject, self.corpus, options), worker, load
 
+    def close(self) -> None:
+        """Takes what was made for tasks out of the scene."""
+        for person in {key[0] for key in self._loads}:
+            self._drop_loads(person)
+        self._drop_made()
+
     def _show_only(self, worker: Worker, load: Load) -> None:
         """Of what was made for tasks, pictures have only this."""
-        made = [each.rig for key, each in self._workers.items() if key[0] is None]
-        made += [each.box for key, each in self._loads.items() if not isinstance(key[0], str)]
+        made = [each.rig for person, each in self._workers.items() if person[0] is None]
+        made += [each.box for key, each in self._loads.items() if not isinstance(key[1], str)]
         for item in made:
             hidden = item not in (worker.rig, load.box)
             if item.hide_render != hidden:
@@ -96,13 +108,18 @@ class Stage:
             if task.rig is not None:
                 rig = _named(task.rig, "rig")
             else:
-                _make_room(self._workers, lambda worker: _remove(worker.rig), lambda key: key[0] is None)
-                rig = add_mannequin(task.stature or DEFAULT_STATURE, task.sex)
+                self._drop_made()  # tasks come person by person; what else is in the scene makes evaluating it slower
+                stature = task.stature or DEFAULT_STATURE
+                rig = add_mannequin(stature, task.sex, " ".join(filter(None, ["Worker", f"{stature:g}", task.sex])),
+                                    dressed=False)
             self._workers[key] = Worker(rig, read_rig(rig))
-        return self._workers[key]
+        worker = self._workers[key]
+        if task.rig is None and not WITHOUT_SURFACES.issuperset(task.outputs) and not worker.rig.children:
+            dress_mannequin(worker.rig, _posture(task.stature or DEFAULT_STATURE, task.sex))
+        return worker
 
     def _load(self, task: Task) -> Load:
-        key = (task.object, task.load)
+        key = (person_of(task), task.object, task.load)
         if key not in self._loads:
             if isinstance(task.object, str):
                 box = _named(task.object, "object")
@@ -110,18 +127,35 @@ class Stage:
                 if task.load is not None:
                     shape = replace(shape, mass=task.load)
             else:
-                _make_room(self._loads, lambda load: _remove(load.box), lambda key: not isinstance(key[0], str))
-                box = add_cuboid(task.object or DEFAULT_BOX)
+                if len(self._loads) >= MOST_KEPT_BOXES:
+                    self._drop_loads(next(iter(self._loads))[0])
+                size = task.object or DEFAULT_BOX
+                mass = "" if task.load is None else f" {task.load:g} kg"
+                box = add_cuboid(size, f"Box {'x'.join(map('{:g}'.format, size))}{mass}")
                 if task.load is not None:
                     box[BOX_MASS] = task.load
                 shape = read_box(box)
-            self._loads[key] = Load(box, shape)
+            self._loads[key] = Load(box, shape, above_matrix(box))
         return self._loads[key]
+
+    def _drop_made(self) -> None:
+        for person in [person for person in self._workers if person[0] is None]:
+            self._drop_loads(person)
+            _remove(self._workers.pop(person).rig)
+
+    def _drop_loads(self, person: Person) -> None:
+        """A box that was made goes with its worker: the order of objects in the scene is the same for every task."""
+        for key in [key for key in self._loads if key[0] == person]:
+            load = self._loads.pop(key)
+            if not isinstance(key[1], str):
+                _remove(load.box)
 
     def _placed(self, place: tuple[float, ...] | str, skeleton: Skeleton) -> Placement:
         """Numbers without a turn face the worker's feet."""
         if isinstance(place, str):
-            return placement(_named(place, "place"))
+            if place not in self._places:  # nothing moves while a batch runs, and evaluating the scene takes long
+                self._places[place] = placement(_named(place, "place"))
+            return self._places[place]
         origin = np.array(place[:3])
         if len(place) == 4:
             return Placement(origin, _about_z(math.radians(place[3])), np.ones(3))
@@ -130,12 +164,16 @@ class Stage:
         return Placement(origin, skeleton.axes.T @ _about_z(facing), np.ones(3))
 
 
-def add_mannequin(stature: float, sex: str | None) -> bpy.types.Object:
-    """Standing at the origin, facing +y."""
+def _posture(stature: float, sex: str | None) -> dict[str, tuple[float, ...]]:
     core = native.core()
-    posture = core.Body.from_stature(stature, sex=sex).posture
-    joints = {name: tuple(map(float, place)) for name, place in zip(core.JOINTS, posture)}
-    rig = build_mannequin(bpy.context.scene.collection, joints, sex, name="Worker", stature=stature)
+    return {name: tuple(map(float, place))
+            for name, place in zip(core.JOINTS, core.Body.from_stature(stature, sex=sex).posture)}
+
+
+def add_mannequin(stature: float, sex: str | None, name: str = "Worker", *, dressed: bool = True) -> bpy.types.Object:
+    """Standing at the origin, facing +y."""
+    rig = build_mannequin(bpy.context.scene.collection, _posture(stature, sex), sex, name=name, stature=stature,
+                          dressed=dressed)
     rig.rotation_euler.z = math.pi
     bpy.context.view_layer.update()
     rig.location -= Vector(read_rig(rig).origin.tolist())
@@ -143,13 +181,13 @@ def add_mannequin(stature: float, sex: str | None) -> bpy.types.Object:
     return rig
 
 
-def add_cuboid(size: tuple[float, ...]) -> bpy.types.Object:
+def add_cuboid(size: tuple[float, ...], name: str = "Box") -> bpy.types.Object:
     """A box whose origin is the middle of its base."""
-    mesh = bpy.data.meshes.new("Box")
+    mesh = bpy.data.meshes.new(name)
     corners = [(a * size[0] / 2, b * size[1] / 2, c * size[2]) for a in (-1, 1) for b in (-1, 1) for c in (0, 1)]
     mesh.from_pydata(corners, [], [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
     mesh.materials.append(_cardboard())
-    box = bpy.data.objects.new("Box", mesh)
+    box = bpy.data.objects.new(name, mesh)
     bpy.context.scene.collection.objects.link(box)
     return box
 
@@ -176,15 +214,9 @@ def _named(name: str, what: str) -> bpy.types.Object:
     return item
 
 
-def _make_room(kept: dict[Any, Any], remove: Any, is_made: Any) -> None:
-    """Takes the oldest of what was made for tasks out of the file when there are many."""
-    made = [key for key in kept if is_made(key)]
-    if len(made) >= MOST_KEPT:
-        remove(kept.pop(made[0]))
-
-
 def _remove(item: bpy.types.Object) -> None:
     """The object, its children and all that was made for them alone."""
+    remove_holds(item)
     items = [*(child for child in item.children if child.type == "MESH"), item]
     data = [each.data for each in items]
     bpy.data.batch_remove(items)

@@ -26,12 +26,14 @@ _SHOWN_M = 0.05   #: size of a hold that is made visible
 
 
 def write_box_action(prepared: Prepared, solved: Solved, rig: bpy.types.Object, box: bpy.types.Object, name: str,
-                     first: int, layer: bpy.types.ViewLayer, aside: Array | None = None) -> bpy.types.Action:
+                     first: int, layer: bpy.types.ViewLayer, aside: Array | None = None,
+                     above: Array | None = None) -> bpy.types.Action:
     """A new Action on `box`, carried by `rig` from every grasp to the release after it; first key at frame `first`.
 
-    aside: (3,) metres in the world by which all places are moved.
+    aside: (3,) metres in the world by which all places are moved. above: (4, 4) `above_matrix` of the box where it is
+    known; else the layer is evaluated for it.
     """
-    above = above_matrix(box, layer)
+    above = above_matrix(box, layer) if above is None else above
     ready_carrier(box, rig, prepared.skeleton)
     return write_action(box, name, carried_channels(box, rig, above, prepared.lift, solved, aside), first)
 
@@ -104,9 +106,19 @@ def rig_of_hold(hold: bpy.types.Object | None) -> bpy.types.Object | None:
     return hold.constraints[0].target if hold is not None and len(hold.constraints) == 3 else None
 
 
+def carriers_of(box: bpy.types.Object) -> list[bpy.types.Constraint]:
+    return list(filter(is_carrier, box.constraints))
+
+
+def remove_holds(rig: bpy.types.Object) -> None:
+    """Before a rig is removed: what goes with its hands."""
+    for hold in [item for item in bpy.data.objects if HOLD in item and rig_of_hold(item) == rig]:
+        bpy.data.objects.remove(hold)
+
+
 def forget_carriers(box: bpy.types.Object) -> None:
     """Takes the constraints off a copy of a box that was carried."""
-    for constraint in list(filter(is_carrier, box.constraints)):
+    for constraint in carriers_of(box):
         box.constraints.remove(constraint)
 
 

@@ -27,25 +27,38 @@ GROUPS = {
 
 
 def build_mannequin(collection: bpy.types.Collection, posture: shape.Posture, sex: str | None, name: str = "Worker",
-                    *, stature: float | None = None) -> bpy.types.Object:
+                    *, stature: float | None = None, dressed: bool = True) -> bpy.types.Object:
     """Add a mannequin to `collection`; returns its armature object, active and selected where it is visible.
 
     `posture`: joint centres of the standing person, canonical name -> (x, y, z), metres, body frame.
     `sex`: "female", "male" or None (in between). `stature`: metres; without it, read off the nasion's height.
+    `dressed`: with its surfaces; without, `dress_mannequin` can add them later.
     Leaves edit or pose mode. Whatever goes wrong, the exception passes on and nothing of the figure stays behind.
     """
     stature = shape.estimated_stature(posture) if stature is None else float(stature)
     bones = shape.skeleton(posture, stature)
-    surfaces = shape.surfaces(posture, stature, sex)
     with _all_or_nothing() as created:
         armature = _add_armature(collection, bones, name, created)
         armature["reachcast_stature"] = stature
         armature["reachcast_sex"] = (sex or "").lower()
-        materials = [_material(*row, created) for row in MATERIALS]
-        for bone in bones:
-            _add_segment(collection, armature, bone.name, surfaces[bone.name], materials, created)
+        if dressed:
+            _dress(collection, armature, posture, created)
         _make_active(armature)
     return armature
+
+
+def dress_mannequin(armature: bpy.types.Object, posture: shape.Posture) -> None:
+    """Adds the surfaces of a mannequin that was built without them, where its armature is. `posture`: as it was built."""
+    with _all_or_nothing() as created:
+        _dress(armature.users_collection[0], armature, posture, created)
+
+
+def _dress(collection: bpy.types.Collection, armature: bpy.types.Object, posture: shape.Posture,
+           created: list[bpy.types.ID]) -> None:
+    surfaces = shape.surfaces(posture, armature["reachcast_stature"], armature["reachcast_sex"] or None)
+    materials = [_material(*row, created) for row in MATERIALS]
+    for bone in armature.data.bones:
+        _add_segment(collection, armature, bone.name, surfaces[bone.name], materials, created)
 
 
 @contextmanager

@@ -12,6 +12,7 @@ from typing import Any
 import bpy
 
 from ..rigs.bone_map import BoneMap
+from ..rigs.rotations import Array
 from .carry import write_box_action
 from .movers import CARRIED, PREDICTED
 from .prepare import Prepared, Solved, prepare, solve
@@ -79,10 +80,14 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
 
 
 def write_solved(prepared: Prepared, solved: Solved, rig: bpy.types.Object, box: bpy.types.Object | None, what: str,
-                 first: int, layer: bpy.types.ViewLayer) -> PredictionResult:
-    """New Actions on rig and box, named after them and `what`, whose first key stands at frame `first`."""
+                 first: int, layer: bpy.types.ViewLayer, above: Array | None = None) -> PredictionResult:
+    """New Actions on rig and box, named after them and `what`, whose first key stands at frame `first`.
+
+    above: (4, 4) `transforms.above_matrix` of the box where it is known.
+    """
     action = write_rig_action(rig, prepared.skeleton, solved.pose, f"{rig.name} {what}", first)
-    box_action = write_box_action(prepared, solved, rig, box, f"{box.name} {what}", first, layer) if box else None
+    box_action = write_box_action(prepared, solved, rig, box, f"{box.name} {what}", first, layer,
+                                  above=above) if box else None
     return describe(solved, rig.name, action, box_action, first)
 
 
