@@ -207,7 +207,9 @@ class REACHCAST_PT_result(Tab, bpy.types.Panel):
         neighbours = dict(zip(action.get(TRANSFERS, ()), action.get(WEIGHTS, ())))
         error = left_out.expected_error(neighbours, found) if found else None
         if error is not None:
-            lines(self.layout, context, f"Expected error here: {expected_text(error)} (left out {found.what})",
+            kind = action["reachcast_corpus_kind"]
+            of_whom = found.what if kind == "recorded" else f"{kind} {found.what}"
+            lines(self.layout, context, f"Expected error here: {expected_text(error)} (left out {of_whom})",
                   "DRIVER_DISTANCE")
 
 

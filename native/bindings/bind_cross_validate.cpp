@@ -114,8 +114,8 @@ void bind_cross_validate(py::module_& m) {
       "behind_best, the 95 % interval of how far "
       "its median lies above the best one's in the same resamples.");
   m.def(
-      "left_out_errors", &by_motion, py::arg("corpus"), py::arg("scheme") = py::dict(), py::arg("leave_out") = "subject",
-      py::kw_only(), py::arg("threads") = 0u,
+      "left_out_errors", &by_motion, py::arg("corpus"), py::arg("scheme") = py::dict(),
+      py::arg("leave_out") = "subject", py::kw_only(), py::arg("threads") = 0u,
       "What cross_validate takes the median of, for one scheme: dict from the id of every transfer that is no mirror "
       "image to its error in metres, infinite where the prediction cannot be held; motions out of reach are missing.");
   m.def(
