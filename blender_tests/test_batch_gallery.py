@@ -21,6 +21,7 @@ ODD = ("</script><script>document.title='broken'</script>", "<img src=x onerror=
 #: Appended to a copy of the page: clicks, then says in the title what the pictures are.
 CLICKS = """<script>
 for (const name of %s) document.querySelector(`th[data-column="${name}"] button`).click();
+%s
 addEventListener("load", () => {
   document.title = [...document.images].map(item => `${item.naturalWidth}x${item.naturalHeight}`).join(" ") || "none";
 });
@@ -75,10 +76,10 @@ class Gallery(unittest.TestCase):
         self.out = Path(tempfile.mkdtemp(prefix="reachcast-gallery-"))
         self.addCleanup(shutil.rmtree, self.out, ignore_errors=True)
 
-    def opened(self, *clicks: str) -> Page:
-        """The page after clicks on the headings of these columns."""
+    def opened(self, *clicks: str, do: str = "") -> Page:
+        """The page after clicks on the headings of these columns and a piece of JavaScript."""
         page = self.out / "clicked.html"
-        page.write_text((self.out / "index.html").read_text(encoding="utf-8") + CLICKS % json.dumps(clicks),
+        page.write_text((self.out / "index.html").read_text(encoding="utf-8") + CLICKS % (json.dumps(clicks), do),
                         encoding="utf-8")
         with tempfile.TemporaryDirectory() as profile:
             done = subprocess.run(
@@ -132,6 +133,23 @@ class Gallery(unittest.TestCase):
                                  (("duration_s", "id"), "abcde"), (("id", "id"), "edcba")):
             with self.subTest(clicks=clicks):
                 self.assertEqual("".join(self.opened(*clicks).column("id")), expected)
+
+    def test_what_is_looked_for_is_found(self) -> None:
+        self.write_results(*({"id": f"a{number}", "status": "done", "reason": "Too FAR" if number % 2 else ""}
+                             for number in range(4)))
+        page = self.opened(do="const find = document.getElementById('find'); find.value = 'too far';"
+                              "find.dispatchEvent(new Event('input'));")
+        self.assertEqual(page.column("id"), ["a1", "a3"])
+
+    def test_thousands_of_rows_are_drawn_as_far_as_one_looks(self) -> None:
+        count = 3000
+        self.write_results(*({"id": f"n{number}", "status": "done", "duration_s": str(count - number)}
+                             for number in range(count)))
+        page = self.opened("duration_s")
+        self.assertEqual(page.column("id")[:2], [f"n{count - 1}", f"n{count - 2}"])
+        self.assertLess(len(page.rows), count / 2)
+        page = self.opened("duration_s", do="while (drawn < order.length) drawMore();")
+        self.assertEqual(page.column("id"), [f"n{number}" for number in reversed(range(count))])
 
     def test_without_results_there_is_no_gallery(self) -> None:
         with self.assertRaisesRegex(ValueError, "no results.csv"):

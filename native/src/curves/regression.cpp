@@ -96,7 +96,7 @@ Eigen::MatrixXd LinearFit::left_out_residuals(const Members& groups) const {
   Eigen::MatrixXd rows = residuals_.rows;
   for (const std::vector<Eigen::Index>& group : groups) {
     const auto size = static_cast<Eigen::Index>(group.size());
-    const Eigen::MatrixXd basis = basis_(group, Eigen::all);
+    const Eigen::MatrixXd basis = basis_(group, every_column(basis_));
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
     qr.setThreshold(kRankTolerance);
     qr.compute(Eigen::MatrixXd::Identity(size, size) - basis * basis.transpose());
@@ -104,10 +104,10 @@ Eigen::MatrixXd LinearFit::left_out_residuals(const Members& groups) const {
       throw std::invalid_argument("people: without the person of path " + std::to_string(group.front()) +
                                   " the others leave a coefficient open");
     }
-    const Eigen::MatrixXd inside = residuals_.rows(group, Eigen::all);
+    const Eigen::MatrixXd inside = residuals_.rows(group, every_column(residuals_.rows));
     if (inside.cols() == 0) continue;  // a straight line has no offsets to learn
     const Eigen::MatrixXd outside = qr.solve(inside);
-    rows(group, Eigen::all) = outside;
+    rows(group, every_column(rows)) = outside;
   }
   return rows;
 }

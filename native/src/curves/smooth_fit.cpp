@@ -42,11 +42,11 @@ Eigen::MatrixXd SmoothFit::left_out_residuals(const Members& groups) const {
   Eigen::MatrixXd rows(weights_.rows(), weights_.cols());
   const Eigen::MatrixXd root = factor_.matrixL().solve(Eigen::MatrixXd::Identity(rows.rows(), rows.rows()));
   for (const std::vector<Eigen::Index>& group : groups) {
-    const Eigen::MatrixXd columns = root(Eigen::all, group);
-    const Eigen::MatrixXd weights = weights_(group, Eigen::all);
+    const Eigen::MatrixXd columns = root(every_column(root), group);
+    const Eigen::MatrixXd weights = weights_(group, every_column(weights_));
     if (weights.cols() == 0) continue;
     const Eigen::MatrixXd outside = (columns.transpose() * columns).llt().solve(weights);
-    rows(group, Eigen::all) = outside;
+    rows(group, every_column(rows)) = outside;
   }
   return rows;
 }

@@ -136,7 +136,7 @@ TEST(LinearFit, LeftOutResidualsAreThoseOfAFitWithoutTheGroup) {
     for (Eigen::Index i = 0; i < 24; ++i) {
       if (std::find(group.begin(), group.end(), i) == group.end()) others.push_back(i);
     }
-    const LinearFit without = fit(x(others, Eigen::all), y(others, Eigen::all));
+    const LinearFit without = fit(x(others, every_column(x)), y(others, every_column(y)));
     for (const Eigen::Index i : group) {
       EXPECT_LT((found.row(i).transpose() - (y.row(i).transpose() - without.mean(x.row(i)))).norm(), kRounding);
     }

@@ -117,9 +117,9 @@ TEST(SmoothFit, LeftOutResidualsAreThoseOfASurfaceWithoutTheGroup) {
       if (std::find(group.begin(), group.end(), i) == group.end()) others.push_back(i);
     }
     const Eigen::MatrixXd inner = system(others, others), cross = system(group, others);
-    const Eigen::MatrixXd weights = inner.inverse() * deviations(others, Eigen::all);
-    const Eigen::MatrixXd expected = deviations(group, Eigen::all) - cross * weights;
-    EXPECT_LT((found(group, Eigen::all) - expected).norm(), kRounding);
+    const Eigen::MatrixXd weights = inner.inverse() * deviations(others, every_column(deviations));
+    const Eigen::MatrixXd expected = deviations(group, every_column(deviations)) - cross * weights;
+    EXPECT_LT((found(group, every_column(found)) - expected).norm(), kRounding);
   }
 }
 

@@ -21,6 +21,11 @@ struct Residuals {
 
 using Members = std::vector<std::vector<Eigen::Index>>;  ///< rows of each group
 
+/// As an index into a matrix: all its columns. Eigen 3.4 and 5 have no other name for them in common.
+[[nodiscard]] inline auto every_column(const Eigen::MatrixXd& matrix) {
+  return Eigen::seqN(Eigen::Index{0}, matrix.cols());
+}
+
 [[nodiscard]] Residuals residuals_with(Eigen::MatrixXd rows, double freedom);
 
 /// Whether a group of columns explains anything beyond the other columns.
