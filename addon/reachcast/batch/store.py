@@ -20,6 +20,9 @@ COLUMNS = ("id", "status", "reason", "landing_error_mm", "grip_error_mm", "foot_
 LEAST_ROOM = 256 * 1024  #: bytes; with less than this left, what Blender wrote may have been cut short unnoticed
 
 
+ROOM_TO_FAIL = 4 * 1024 * 1024  #: bytes; what fails with less left is put down to the disk: Blender does not say why
+
+
 class DiskFull(Exception):
     """One sentence; the whole run stops."""
 
@@ -91,13 +94,13 @@ class Store:
             os.rename(draft, final)
             shutil.rmtree(old, ignore_errors=True)
 
-    def refuse_full(self, error: OSError | None = None) -> None:
-        """DiskFull when `error` says so or next to nothing is left."""
+    def refuse_full(self, error: Exception | None = None) -> None:
+        """DiskFull when `error` says so, or next to nothing is left; a little more may be, where something failed."""
         try:
             free = shutil.disk_usage(self.out).free
         except FileNotFoundError:
             free = shutil.disk_usage(self.out.parent).free
-        if free < LEAST_ROOM or (error is not None and error.errno in (errno.ENOSPC, errno.EDQUOT)):
+        if free < (ROOM_TO_FAIL if error else LEAST_ROOM) or (isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)):
             raise DiskFull(f"The disk of '{self.out}' is full ({free // 1024} KiB left); what was finished is kept: "
                            f"make room and start again")
 
