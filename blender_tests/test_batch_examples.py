@@ -74,6 +74,7 @@ class ShelfStudy(Example):
         bpy.ops.wm.open_mainfile(filepath=os.fspath(self.out / "study.blend"))
         markers = {item["reachcast_study"].split(":")[0]: item for item in bpy.data.objects if "reachcast_study" in item}
         self.assertEqual(len(markers), len(moments))
+        self.assertEqual(len([item for item in bpy.data.objects if item.type == "ARMATURE" and item.children]), 2)
         for (stature, height), moment in moments.items():
             marker = markers[f"{stature:g} m to {height:g} m"]
             self.assertAlmostEqual(marker.location.z, height, places=5)

@@ -84,6 +84,8 @@ class Preferences(unittest.TestCase):
                                      ("INCHES", "47.2 in", "0.002 in")):
             self.chosen.units = units
             self.assertEqual((preferences.length_text(1.2), preferences.error_text(5e-5)), (length, error))
+        self.chosen.units = "CENTIMETRES"
+        self.assertEqual(preferences.place_text((-0.014, 0.37, 1.2)), "(-1, 37, 120) cm")
 
     def test_enabled_by_a_script_alone_the_defaults_hold(self) -> None:
         addon_utils.disable("reachcast", default_set=True)

@@ -140,7 +140,8 @@ def main(given: Sequence[str]) -> dict[str, Any]:
     scene = bpy.context.scene
     stage = Stage(opened_corpus(native.core(), os.fspath(options.corpus or default_corpus())))
     task = read_task({"home": "0 0.42 0.1", "target": options.target, "variants": options.variants,
-                      "seed": options.seed, "phases": "reach transfer return", "resolution": options.size}, 1)
+                      "seed": options.seed, "phases": "reach transfer return", "resolution": options.size,
+                      "outputs": "png"}, 1)
     size = task.resolution
     for folder in ("images", "depth"):
         (options.out / folder).mkdir(parents=True, exist_ok=True)

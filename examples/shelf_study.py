@@ -78,8 +78,9 @@ def arguments(given: Sequence[str]) -> argparse.Namespace:
     return parser.parse_args(list(given))
 
 
-def unit(options: argparse.Namespace, stature: float, height: float) -> Unit:
-    return Unit(read_task({"stature": stature, "target": [0.0, options.ahead, height], "load": options.load}, 1), None)
+def unit(options: argparse.Namespace, stature: float, height: float, outputs: str = "csv") -> Unit:
+    return Unit(read_task({"stature": stature, "target": [0.0, options.ahead, height], "load": options.load,
+                           "outputs": outputs}, 1), None)
 
 
 def carried(solved: Solved) -> slice:
@@ -136,7 +137,7 @@ def set_scene(stage: Stage, cells: list[Cell], options: argparse.Namespace) -> N
         if able:
             best = min(able, key=lambda cell: cell.moment)
             single = Stage(stage.corpus)  # a figure of its own, which stays
-            prepared, worker, load = single.prepared(unit(options, stature, best.height))
+            prepared, worker, load = single.prepared(unit(options, stature, best.height, "png"))
             solved = solve(prepared)
             placed = solved.motion.events["placed"]
             perform_aside(prepared, solved, worker.rig, load.box, f"to {best.height:g} m", 1 - placed, aside, people,

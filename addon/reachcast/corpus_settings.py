@@ -10,7 +10,7 @@ import bpy
 
 from . import native
 from .corpora import default_corpus, opened_corpus
-from .preferences import length_text
+from .preferences import length_text, place_text
 from .reachcast_corpus.listing import person_text
 from .scene import target_cloud
 from .scene.motion_library import target_points
@@ -25,11 +25,11 @@ PHASES = (("ALL", "All", "Motions of every phase"), ("reach", "Reach", "Empty ha
 class ListedMotion(bpy.types.PropertyGroup):
     """A row. Its name is what the list is searched by."""
 
-    motion: bpy.props.IntProperty()
-    phase: bpy.props.StringProperty()
-    place: bpy.props.StringProperty()
-    duration: bpy.props.StringProperty()
-    words: bpy.props.StringProperty()
+    motion: bpy.props.IntProperty(options={"HIDDEN"})
+    phase: bpy.props.StringProperty(options={"HIDDEN"})
+    place: bpy.props.StringProperty(options={"HIDDEN"})
+    duration: bpy.props.StringProperty(options={"HIDDEN"})
+    words: bpy.props.StringProperty(options={"HIDDEN"})
 
 
 def _show_or_hide(listing: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
@@ -63,9 +63,10 @@ def in_panel(context: bpy.types.Context, action: Callable[[bpy.types.Context], o
 class MotionListing(bpy.types.PropertyGroup):
     rows: bpy.props.CollectionProperty(type=ListedMotion)
     active: bpy.props.IntProperty(name="Motion", description="The motion that Play and Forget mean")
-    total: bpy.props.IntProperty()
-    source: bpy.props.StringProperty()
-    phase: bpy.props.EnumProperty(name="Phase", items=PHASES, update=_list_again, description="Which motions are listed and drawn")
+    total: bpy.props.IntProperty(options={"HIDDEN"})
+    source: bpy.props.StringProperty(options={"HIDDEN"})
+    phase: bpy.props.EnumProperty(name="Phase", items=PHASES, update=_list_again,
+                                  description="Which motions are listed and drawn")
     show_targets: bpy.props.BoolProperty(
         name="Show Targets", update=_show_or_hide,
         description="Draw where the hands of the corpus' motions were on the box, around the rig: what lies far from "
@@ -106,5 +107,5 @@ def fill(listing: MotionListing, corpus: Any) -> None:
         row.name = f"{motion.id} {motion.phase} {origin}"
         row.phase, row.place = motion.phase, length_text(motion.target[2])
         row.duration = f"{motion.duration:.1f} s"
-        place = ", ".join(map(length_text, motion.target))
-        row.words = f"Motion {motion.id}: {person_text(motion.subject)}, hands to ({place}), from {origin}"
+        row.words = (f"Motion {motion.id}: {person_text(motion.subject)}, hands to {place_text(motion.target)}, from "
+                     f"{origin}")

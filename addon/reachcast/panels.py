@@ -47,6 +47,7 @@ class REACHCAST_MT_corpora(bpy.types.Menu):
 
 class REACHCAST_PT_lift(Tab, bpy.types.Panel):
     bl_label = "Lift to Shelf"
+    bl_description = "The task as a sentence: who does what with which box, from where to where, and the button"
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.reachcast
@@ -63,7 +64,7 @@ class REACHCAST_PT_lift(Tab, bpy.types.Panel):
                 row.prop(settings, "handle_left", text="")
                 row.prop(settings, "handle_right", text="")
         if not settings.corpus and default_corpus():
-            _words(column, "", "simulated, ships with it")
+            _words(column, "", "the simulated one")
         blocking = [need for need in needs(settings) if need.reason]
         for need in blocking:
             lines(self.layout, context, need.reason, "ERROR")
@@ -84,6 +85,7 @@ class REACHCAST_PT_lift(Tab, bpy.types.Panel):
 
 class REACHCAST_PT_subject(Tab, bpy.types.Panel):
     bl_label = "Person"
+    bl_description = "Whose way of moving is predicted: size, sex, age and body mass"
     bl_parent_id = "REACHCAST_PT_lift"
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -105,6 +107,7 @@ class REACHCAST_PT_subject(Tab, bpy.types.Panel):
 
 class REACHCAST_PT_output(Tab, bpy.types.Panel):
     bl_label = "Output"
+    bl_description = "What a prediction leaves besides its Actions: markers, assets, NLA strips"
     bl_parent_id = "REACHCAST_PT_lift"
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -118,6 +121,7 @@ class REACHCAST_PT_output(Tab, bpy.types.Panel):
 
 class REACHCAST_PT_hand_path(Tab, bpy.types.Panel):
     bl_label = "Hand Path"
+    bl_description = "Shape the way of the hands by hand; the whole body follows"
     bl_parent_id = "REACHCAST_PT_lift"
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -135,14 +139,14 @@ class REACHCAST_PT_hand_path(Tab, bpy.types.Panel):
 
 class REACHCAST_PT_variants(Tab, bpy.types.Panel):
     bl_label = "Variants"
+    bl_description = "Several motions of the same task, as different people would do it"
     bl_parent_id = "REACHCAST_PT_lift"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.reachcast
         column = self.layout.column(align=True)
-        for words, name in (("How many", "variants"), ("From seed", "seed"), ("Variation", "variation"),
-                            ("Shown as", "variants_as")):
+        for words, name in (("Number", "variants"), ("Seed", "seed"), ("Variation", "variation"), ("as", "variants_as")):
             _sentence_part(column, settings, words, name)
         if settings.variants_as == "GHOSTS":
             _sentence_part(column, settings, "Spacing", "spacing")
@@ -152,6 +156,7 @@ class REACHCAST_PT_variants(Tab, bpy.types.Panel):
 
 class REACHCAST_PT_others(Tab, bpy.types.Panel):
     bl_label = "Several at Once"
+    bl_description = "The same task for people of other sizes, or to several places"
     bl_parent_id = "REACHCAST_PT_lift"
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -163,6 +168,7 @@ class REACHCAST_PT_others(Tab, bpy.types.Panel):
 
 class REACHCAST_PT_result(Tab, bpy.types.Panel):
     bl_label = "Last Result"
+    bl_description = "What the motion on the rig rests on, and how exact it is"
     bl_parent_id = "REACHCAST_PT_lift"
 
     @classmethod
@@ -180,7 +186,7 @@ class REACHCAST_PT_result(Tab, bpy.types.Panel):
         for words, name in (("Landing", "landing"), ("Grip", "grip")):
             if (error := action.get(f"reachcast_{name}_error_m")) is not None:
                 _words(column, words, f"{error_text(error)} off")
-        _words(column, "Path", action["reachcast_ways"].replace(", ", "; "))
+        lines(self.layout, context, f"Hand paths: {action['reachcast_ways'].replace(', ', '; ')}", "CURVE_BEZCURVE")
         kind = action["reachcast_corpus_kind"]
         if action["reachcast_outside_data"]:
             why = action["reachcast_outside_reasons"] or "the target"

@@ -22,6 +22,7 @@ class REACHCAST_UL_motions(bpy.types.UIList):
 
 class REACHCAST_PT_corpus(Tab, bpy.types.Panel):
     bl_label = "Corpus"
+    bl_description = "What was learned from: import recordings, list them, play one, see where they reach"
     bl_parent_id = "REACHCAST_PT_lift"
     bl_options = {"DEFAULT_CLOSED"}
 

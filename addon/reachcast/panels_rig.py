@@ -24,6 +24,7 @@ def has_controls(rig: bpy.types.Object | None) -> bool:
 
 class REACHCAST_PT_control_rig(Tab, bpy.types.Panel):
     bl_label = "Control Rig"
+    bl_description = "How a motion is written on this generated rig's limbs, so that it stays editable"
     bl_parent_id = "REACHCAST_PT_lift"
 
     @classmethod
@@ -40,6 +41,7 @@ class REACHCAST_PT_control_rig(Tab, bpy.types.Panel):
 
 class REACHCAST_PT_bone_map(Tab, bpy.types.Panel):
     bl_label = "Bone Map"
+    bl_description = "Which bone is which part of the body, and what is missing"
     bl_parent_id = "REACHCAST_PT_lift"
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -58,9 +60,10 @@ class REACHCAST_PT_bone_map(Tab, bpy.types.Panel):
         else:
             self.draw_recognised(column, rig)
             layout.operator(bone_maps.REACHCAST_OT_edit_bone_map.bl_idname, icon="GREASEPENCIL")
-        row = layout.row(align=True)
-        for operator in (bone_maps.REACHCAST_OT_save_bone_map, bone_maps.REACHCAST_OT_import_bone_map,
-                         bone_maps.REACHCAST_OT_export_bone_map):
+        column = layout.column(align=True)
+        column.operator(bone_maps.REACHCAST_OT_save_bone_map.bl_idname)
+        row = column.row(align=True)
+        for operator in (bone_maps.REACHCAST_OT_import_bone_map, bone_maps.REACHCAST_OT_export_bone_map):
             row.operator(operator.bl_idname)
 
     def draw_recognised(self, column: bpy.types.UILayout, rig: bpy.types.Object) -> None:

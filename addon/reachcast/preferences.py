@@ -2,6 +2,7 @@
 """The add-on's preferences: folders with corpora, the usual person, and the unit in which the panel tells lengths."""
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +28,7 @@ class ReachcastPreferences(bpy.types.AddonPreferences):
     corpus_folders: bpy.props.CollectionProperty(
         name="Corpus Folders", type=CorpusFolder, description="Folders whose corpora are offered in the panel")
     stature: bpy.props.FloatProperty(
-        name="Stature", min=0.0, max=2.6, subtype="DISTANCE", unit="LENGTH",
+        name="Stature", min=0.0, max=2.6, precision=4, subtype="DISTANCE", unit="LENGTH",
         description="Height of the usual person, for scenes that do not say another; 0 takes the rig's own")
     sex: bpy.props.EnumProperty(name="Sex", items=SEXES, description="Sex of the usual person")
     age: bpy.props.FloatProperty(name="Age", min=0.0, max=130.0, precision=0,
@@ -76,6 +77,12 @@ def length_text(metres: float) -> str:
     """A length of the size of a body."""
     return {"METRES": f"{metres:.2f} m", "CENTIMETRES": f"{metres * 100.0:.0f} cm",
             "INCHES": f"{metres / 0.0254:.1f} in"}[preferred("units")]
+
+
+def place_text(metres: Iterable[float]) -> str:
+    """A point, or several lengths in one unit."""
+    texts = [length_text(value).split() for value in metres]
+    return f"({', '.join(number for number, _ in texts)}) {texts[0][1]}"
 
 
 def error_text(metres: float) -> str:

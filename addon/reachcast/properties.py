@@ -78,7 +78,7 @@ class ReachcastSettings(SubjectSettings, bpy.types.PropertyGroup):
                     "Arms and body are not looked at")
     approach: bpy.props.EnumProperty(
         name="Approach", default="FREE", description="From where the hands, or the box in them, come to the shelf",
-        items=(("FREE", "as people do", "As the recorded people did"), ("ABOVE", "from above", ""),
+        items=(("FREE", "as people do", "As the recorded people did"), ("ABOVE", "from above", "Down onto the shelf"),
                ("FRONT", "from the front", "From the side where the person stands"),
                ("SIDE", "from the side", "From the side where the hands come from")))
     variants: bpy.props.IntProperty(

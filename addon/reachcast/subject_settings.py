@@ -39,7 +39,8 @@ class SubjectSettings:
     """Part of `ReachcastSettings`."""
 
     stature: bpy.props.FloatProperty(
-        name="Stature", min=0.0, max=2.6, subtype="DISTANCE", unit="LENGTH", get=_GET_STATURE, set=_SET_STATURE,
+        name="Stature", min=0.0, max=2.6, precision=4, subtype="DISTANCE", unit="LENGTH", get=_GET_STATURE,
+        set=_SET_STATURE,
         description="Height of the person to move like; 0 takes the rig's own")
     sex: bpy.props.EnumProperty(name="Sex", items=SEXES, get=_sex, set=_set_sex,
                                 description="Whose motions count as similar")

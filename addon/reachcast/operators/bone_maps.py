@@ -42,7 +42,7 @@ class _OnRig:
 
 
 class _WithFile(_OnRig):
-    filepath: bpy.props.StringProperty(subtype="FILE_PATH")
+    filepath: bpy.props.StringProperty(name="File", subtype="FILE_PATH", description="The JSON file of the bone map")
     filter_glob: bpy.props.StringProperty(default="*.json", options={"HIDDEN"})
 
     def folder(self) -> str:
@@ -84,7 +84,8 @@ class REACHCAST_OT_save_bone_map(_OnRig, bpy.types.Operator):
     bl_label = "Save as Preset"
     bl_description = "Keep this bone map for all rigs with these bones, in Blender's folder for the user's presets"
     needs_all = True
-    preset: bpy.props.StringProperty(name="Name", default="My rig")
+    preset: bpy.props.StringProperty(name="Name", default="My rig",
+                                     description="What the preset and its file are called")
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         return context.window_manager.invoke_props_dialog(self)

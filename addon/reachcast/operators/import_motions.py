@@ -139,8 +139,10 @@ class REACHCAST_OT_capture_motion(_ToOwnCorpus, bpy.types.Operator):
 
     phase: bpy.props.EnumProperty(
         name="Phase", default="FIND", description="What the frames are",
-        items=(("FIND", "Find phases", "Cut where the hands rest"), ("reach", "One reach", ""),
-               ("transfer", "One transfer", ""), ("return", "One return", ""), ("retrieve", "One retrieve", "")))
+        items=(("FIND", "Find phases", "Cut where the hands rest"), ("reach", "One reach", "Empty hands to the box"),
+               ("transfer", "One transfer", "With the box, from home to the shelf"),
+               ("return", "One return", "Empty hands back to the sides"),
+               ("retrieve", "One retrieve", "With the box, from the shelf home")))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings, scene = context.scene.reachcast, context.scene

@@ -45,7 +45,9 @@ class REACHCAST_OT_choose_percentile(bpy.types.Operator):
     bl_description = "Take the stature of this percentile (US Army survey of 1988)"
     bl_options = {"REGISTER", "UNDO"}
 
-    percentile: bpy.props.FloatProperty(name="Percentile", default=50.0, min=0.1, max=99.9)
+    percentile: bpy.props.FloatProperty(
+        name="Percentile", default=50.0, min=0.1, max=99.9,
+        description="Of a hundred people of the chosen sex, how many are shorter")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
