@@ -95,7 +95,7 @@ class Store:
             shutil.rmtree(old, ignore_errors=True)
 
     def refuse_full(self, error: Exception | None = None) -> None:
-        """DiskFull when `error` says so, or next to nothing is left; a little more may be, where something failed."""
+        """DiskFull when `error` says so or next to nothing is left; after a failure, a little more may be."""
         try:
             free = shutil.disk_usage(self.out).free
         except FileNotFoundError:
