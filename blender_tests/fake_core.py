@@ -74,6 +74,7 @@ class Task:
 
 class Corpus:
     meta = {"kind": "recorded"}
+    path = "statue"
 
     @staticmethod
     def open(path: str) -> Corpus:

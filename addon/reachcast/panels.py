@@ -6,7 +6,7 @@ import textwrap
 
 import bpy
 
-from . import path_editing
+from . import left_out, path_editing
 from .corpora import default_corpus
 from .operators.corpus_choice import REACHCAST_OT_choose_corpus
 from .operators.edit_hand_path import (REACHCAST_OT_edit_hand_path, REACHCAST_OT_finish_hand_path,
@@ -16,9 +16,10 @@ from .operators.predict_family import REACHCAST_OT_choose_percentile, REACHCAST_
 from .operators.predict_motion import REACHCAST_OT_predict_motion
 from .operators.predict_targets import REACHCAST_OT_predict_targets
 from .operators.predict_variants import REACHCAST_OT_predict_variants
-from .preferences import error_text, offered_corpora
+from .preferences import error_text, expected_text, offered_corpora
 from .properties import needs
 from .scene.nla_strips import predicted_action
+from .scene.predict_action import TRANSFERS, WEIGHTS
 
 _LABELS = 0.3  #: part of the panel's width that the words take
 
@@ -146,7 +147,8 @@ class REACHCAST_PT_variants(Tab, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.reachcast
         column = self.layout.column(align=True)
-        for words, name in (("Number", "variants"), ("Seed", "seed"), ("Variation", "variation"), ("as", "variants_as")):
+        for words, name in (("Number", "variants"), ("Seed", "seed"), ("Variation", "variation"),
+                            ("as", "variants_as")):
             _sentence_part(column, settings, words, name)
         if settings.variants_as == "GHOSTS":
             _sentence_part(column, settings, "Spacing", "spacing")
@@ -193,10 +195,22 @@ class REACHCAST_PT_result(Tab, bpy.types.Panel):
             lines(self.layout, context, f"Outside the {kind} data, take it with care: {why}", "ERROR")
         else:
             lines(self.layout, context, f"Within the {kind} data.", "CHECKMARK")
+        self.draw_expected_error(context, action)
         lines(self.layout, context, f"From motions {action['reachcast_neighbours']}", "COMMUNITY")
         self.layout.operator(REACHCAST_OT_pose_ghosts.bl_idname, icon="GHOST_ENABLED")
         if action["reachcast_corrections"]:
             lines(self.layout, context, f"Corrected: {action['reachcast_corrections']}", "INFO")
+
+
+    def draw_expected_error(self, context: bpy.types.Context, action: bpy.types.Action) -> None:
+        found = left_out.known(action.get("reachcast_corpus", ""))
+        neighbours = dict(zip(action.get(TRANSFERS, ()), action.get(WEIGHTS, ())))
+        error = left_out.expected_error(neighbours, found) if found else None
+        if error is not None:
+            kind = action["reachcast_corpus_kind"]
+            of_whom = found.what if kind == "recorded" else f"{kind} {found.what}"
+            lines(self.layout, context, f"Expected error here: {expected_text(error)} (left out {of_whom})",
+                  "DRIVER_DISTANCE")
 
 
 def _sentence_part(column: bpy.types.UILayout, settings: bpy.types.PropertyGroup, words: str,

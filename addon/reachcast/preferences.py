@@ -85,6 +85,11 @@ def place_text(metres: Iterable[float]) -> str:
     return f"({', '.join(number for number, _ in texts)}) {texts[0][1]}"
 
 
+def expected_text(metres: float) -> str:
+    """A length of the size of a hand, such as the error of a prediction."""
+    return f"{metres / 0.0254:.1f} in" if preferred("units") == "INCHES" else f"{metres * 100.0:.1f} cm"
+
+
 def error_text(metres: float) -> str:
     """A length that should be small: a landing, a grip."""
     return f"{metres / 0.0254:.3f} in" if preferred("units") == "INCHES" else f"{metres * 1000.0:.2f} mm"

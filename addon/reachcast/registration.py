@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import bpy
 
-from . import corpora, corpus_settings, panels, panels_corpus, panels_rig, path_editing, preferences, properties
-from .operators import (add_mannequin, bone_maps, corpus_choice, corpus_motions, edit_hand_path, import_motions, pose_ghosts,
-                        predict_family, predict_motion, predict_targets, predict_variants)
+from . import (corpora, corpus_settings, left_out, panels, panels_corpus, panels_rig, path_editing, preferences,
+               properties)
+from .operators import (add_mannequin, bone_maps, corpus_choice, corpus_motions, edit_hand_path, import_motions,
+                        pose_ghosts, predict_family, predict_motion, predict_targets, predict_variants)
 from .scene import map_editing, target_cloud
 
 CLASSES: tuple[type, ...] = (
@@ -62,6 +63,7 @@ def register() -> None:
 
 def unregister() -> None:
     path_editing.forget()
+    left_out.forget()
     target_cloud.show(False)
     bpy.types.VIEW3D_MT_armature_add.remove(add_mannequin.draw_menu_entry)
     del bpy.types.Object.reachcast_map, bpy.types.Object.reachcast_bones

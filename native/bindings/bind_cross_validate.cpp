@@ -53,6 +53,21 @@ py::list table(const Corpus& corpus, const py::iterable& schemes, const std::str
   return out;
 }
 
+py::dict by_motion(const Corpus& corpus, const py::handle& scheme, const std::string& leave_out, unsigned threads,
+                   const py::kwargs& unknown) {
+  refuse_unknown(unknown, "left_out_errors", "scheme, leave_out, threads");
+  const Scheme wanted = to_scheme(scheme);
+  std::vector<LeftOutError> errors;
+  const CrossValidation options{.leave_out = to_leave_out(leave_out), .threads = threads};
+  {
+    const py::gil_scoped_release without_gil;
+    errors = left_out_errors(corpus, wanted, options);
+  }
+  py::dict out;
+  for (const LeftOutError& error : errors) out[py::int_(error.motion_id)] = error.error_m;
+  return out;
+}
+
 py::dict variation(const Corpus& corpus, double within, std::uint64_t seed, unsigned threads,
                    const py::kwargs& unknown) {
   refuse_unknown(unknown, "natural_variation", "within, seed, threads");
@@ -98,6 +113,11 @@ void bind_cross_validate(py::module_& m) {
       "1000 bootstrap resamples (seed) of groups (motions, or subjects where those are left out); best; and "
       "behind_best, the 95 % interval of how far "
       "its median lies above the best one's in the same resamples.");
+  m.def(
+      "left_out_errors", &by_motion, py::arg("corpus"), py::arg("scheme") = py::dict(),
+      py::arg("leave_out") = "subject", py::kw_only(), py::arg("threads") = 0u,
+      "What cross_validate takes the median of, for one scheme: dict from the id of every transfer that is no mirror "
+      "image to its error in metres, infinite where the prediction cannot be held; motions out of reach are missing.");
   m.def(
       "natural_variation", &variation, py::arg("corpus"), py::arg("within") = 0.05, py::kw_only(),
       py::arg("seed") = kBootstrapSeed, py::arg("threads") = 0u,

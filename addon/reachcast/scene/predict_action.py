@@ -20,6 +20,10 @@ from .transforms import layer_of
 from .write_motion import write_rig_action
 
 
+#: Custom properties of a predicted Action: ids of the neighbours that are transfers, and their weights.
+TRANSFERS, WEIGHTS = "reachcast_transfers", "reachcast_transfer_weights"
+
+
 @dataclass(frozen=True)
 class Neighbour:
     """A recorded motion that took part. Distances in metres: between the targets, the homes, the statures."""
@@ -49,6 +53,7 @@ class PredictionResult:
     #: (phase, what its path of the hands comes from: deviation, bezier, published or given), one per phase
     ways: tuple[tuple[str, str], ...]
     errors: Mapping[str, float]                           #: metres: landing (if placed), grip (if held), pose
+    corpus_path: str
     corpus_kind: str                                      #: what was learned from: "recorded", "simulated", ...
 
 
@@ -111,7 +116,7 @@ def describe(solved: Solved, rig: str, action: bpy.types.Action, box_action: bpy
         motion.outside_data, tuple(map(str, motion.outside_reasons)),
         tuple(map(correction_in_words, motion.corrections)),
         tuple(zip((phase for phase, _, _ in motion.phases), motion.ways)), MappingProxyType(dict(solved.errors)),
-        solved.corpus_kind)
+        solved.corpus_path, solved.corpus_kind)
     _label(action, result)
     if box_action is not None:
         box_action[CARRIED] = rig
@@ -131,6 +136,9 @@ def _label(action: bpy.types.Action, result: PredictionResult) -> None:
         action[event] = frame
     action[PREDICTED] = ", ".join(result.frames)
     action["reachcast_first_frame"] = result.first_frame
+    transfers = [near for near in result.neighbours if near.phase == "transfer"]
+    action[TRANSFERS], action[WEIGHTS] = [near.id for near in transfers], [near.weight for near in transfers]
+    action["reachcast_corpus"] = result.corpus_path
     action["reachcast_corpus_kind"] = result.corpus_kind
     action["reachcast_outside_data"] = result.outside_data
     action["reachcast_neighbours"] = ", ".join(str(near.id) for near in result.neighbours)

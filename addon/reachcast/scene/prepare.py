@@ -53,6 +53,7 @@ class Solved:
     reached: Array                  #: (F, 27, 3) world: the same joints as the posed bones carry them
     places: tuple[Array, Array]     #: of the box: origins (F, 3) and turns (F, 3, 3), world
     errors: Mapping[str, float]     #: metres: landing (if placed), grip (if held), pose
+    corpus_path: str
     corpus_kind: str                #: "recorded", "simulated", ... as the corpus says; "recorded" where it does not
 
 
@@ -92,7 +93,7 @@ def solve(prepared: Prepared, **options: object) -> Solved:
     places = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
     reached = pose.joints()
     return Solved(motion, pose, joints, reached, places, _errors(skeleton, lift, motion, reached, joints, places),
-                  prepared.corpus.meta["kind"] or "recorded")
+                  str(prepared.corpus.path), prepared.corpus.meta["kind"] or "recorded")
 
 
 def refuse_owners(rig: bpy.types.Object, skeleton: Skeleton, box: bpy.types.Object | None,

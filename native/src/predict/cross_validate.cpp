@@ -126,6 +126,16 @@ std::vector<double> errors_of(const Recorded& recorded, std::uint32_t at, std::s
 /// Errors of each left-out motion by scheme.
 using Errors = std::vector<std::vector<double>>;
 
+Errors all_errors(const Recorded& recorded, std::span<const Scheme> schemes, const CrossValidation& options) {
+  for (const Scheme& scheme : schemes) check(scheme);
+  const Selections selections(schemes);
+  Errors errors(recorded.originals.size());
+  for_each_number(errors.size(), options.threads, [&](std::size_t i) {
+    errors[i] = errors_of(recorded, recorded.originals[i], schemes, selections, options.leave_out);
+  });
+  return errors;
+}
+
 /// Motions that could not be performed are so under every scheme: all rows have the same groups.
 Groups groups_of(const Recorded& recorded, const Errors& errors, const CrossValidation& options) {
   std::vector<std::int64_t> keys;
@@ -179,13 +189,8 @@ void compare_with_best(std::vector<SchemeError>& rows, const std::vector<std::ve
 std::vector<SchemeError> cross_validate(const Corpus& corpus, std::span<const Scheme> schemes,
                                         const CrossValidation& options) {
   if (schemes.empty()) throw std::invalid_argument("schemes is empty; at least one is needed");
-  for (const Scheme& scheme : schemes) check(scheme);
   const Recorded recorded(corpus);
-  const Selections selections(schemes);
-  Errors errors(recorded.originals.size());
-  for_each_number(errors.size(), options.threads, [&](std::size_t i) {
-    errors[i] = errors_of(recorded, recorded.originals[i], schemes, selections, options.leave_out);
-  });
+  const Errors errors = all_errors(recorded, schemes, options);
   const Groups groups = groups_of(recorded, errors, options);
   std::vector<SchemeError> rows(schemes.size());
   std::vector<std::vector<double>> medians(schemes.size());
@@ -193,6 +198,18 @@ std::vector<SchemeError> cross_validate(const Corpus& corpus, std::span<const Sc
                   [&](std::size_t s) { rows[s] = row_of(schemes[s], s, errors, groups, medians[s]); });
   compare_with_best(rows, medians);
   return rows;
+}
+
+std::vector<LeftOutError> left_out_errors(const Corpus& corpus, const Scheme& scheme, const CrossValidation& options) {
+  const Recorded recorded(corpus);
+  const Errors errors = all_errors(recorded, std::span(&scheme, 1), options);
+  std::vector<LeftOutError> found;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (!errors[i].empty()) found.push_back({recorded.motion(recorded.originals[i]).id, errors[i].front()});
+  }
+  std::sort(found.begin(), found.end(),
+            [](const LeftOutError& a, const LeftOutError& b) { return a.motion_id < b.motion_id; });
+  return found;
 }
 
 }  // namespace reachcast

@@ -108,6 +108,21 @@ TEST(CrossValidate, IsWhatPredictingOneMotionAfterTheOtherGives) {
   }
 }
 
+TEST(CrossValidate, TakesTheMedianOfTheErrorsOfSingleMotions) {
+  for (const LeaveOut leave_out : {LeaveOut::motion, LeaveOut::subject}) {
+    const SchemeError row = cross_validate(made_corpus(), kSchemes, {.leave_out = leave_out})[1];
+    const std::vector<LeftOutError> found = left_out_errors(made_corpus(), kSchemes[1], {.leave_out = leave_out});
+    ASSERT_EQ(found.size(), row.motions);
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      errors.push_back(found[i].error_m);
+      EXPECT_TRUE(i == 0 || found[i - 1].motion_id < found[i].motion_id);
+    }
+    std::sort(errors.begin(), errors.end());
+    EXPECT_EQ(row.error.median_m, 0.5 * (errors[(errors.size() - 1) / 2] + errors[errors.size() / 2]));
+  }
+}
+
 TEST(CrossValidate, DoesNotDependOnTheNumberOfThreads) {
   const auto one = cross_validate(made_corpus(), kSchemes, {.threads = 1});
   for (const unsigned threads : {2u, 5u}) {

@@ -57,6 +57,17 @@ struct CrossValidation {
 [[nodiscard]] std::vector<SchemeError> cross_validate(const Corpus& corpus, std::span<const Scheme> schemes,
                                                       const CrossValidation& options = {});
 
+/// How wrong the prediction of one motion is that was left out.
+struct LeftOutError {
+  std::int64_t motion_id = 0;
+  double error_m = 0.0;  ///< infinite where the prediction cannot be held
+};
+
+/// What cross_validate takes the median of, for one scheme: motion by motion, ascending by id. Motions that are out of
+/// reach are missing. Throws as cross_validate does.
+[[nodiscard]] std::vector<LeftOutError> left_out_errors(const Corpus& corpus, const Scheme& scheme,
+                                                        const CrossValidation& options = {});
+
 /// How far replicates are from one another: one person's transfers whose homes, and whose targets, lie within
 /// `within_m`. Each serves as the prediction of the other; a pair is the mean of the two distances.
 struct NaturalVariation {
