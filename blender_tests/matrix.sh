@@ -22,7 +22,7 @@ STATUS=0
 # What the Blender of a release needs and its package does not ask for.
 extra_packages() {
   case $1 in
-    sid) echo python3-cattr ;;  # Blender 5.2 imports cattrs as it starts
+    sid) echo python3-cattr python3-requests ;;  # Blender 5.2 and its add-ons import them as they start
   esac
 }
 

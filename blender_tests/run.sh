@@ -143,7 +143,7 @@ window_tests() {
 
 bench_test() {
   local name
-  for name in bench_bake bench_path bench_pictures; do
+  for name in bench_bake bench_path bench_pictures bench_batch; do
     begin "bench: $name"
     if ! run "$name" blender -b --factory-startup --python-exit-code 1 --python "blender_tests/$name.py"; then
       broken "$name"

@@ -132,7 +132,8 @@ class SmallCluster:
             done = subprocess.run(command, env={**self.environment, **node}, stdout=log, stderr=log,
                                   stdin=subprocess.DEVNULL, check=False, timeout=60)
         if done.returncode:
-            raise RuntimeError(f"{command[0]} ended with {done.returncode}: {(self.folder / 'daemons.log').read_text()}")
+            said = (self.folder / "daemons.log").read_text()
+            raise RuntimeError(f"{command[0]} ended with {done.returncode}: {said}")
 
     def _configure(self) -> None:
         host = socket.gethostname().partition(".")[0]

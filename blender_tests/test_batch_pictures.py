@@ -190,6 +190,10 @@ class Pictures(unittest.TestCase):
         self.assertEqual([moment.frame for moment in found], [5, 15, 21, 31, 41, 51, 57, 85])
         self.assertEqual([moment.label.split("  ")[0] for moment in found],
                          ["start", "grasp", "lift off", "on the way", "on the way", "placed", "release", "end"])
+        found = moments({"grasp": 10, "lift_off": 16, "placed": 46, "release": 52, "grasp_2": 80, "lift_off_2": 86,
+                         "placed_2": 120, "release_2": 126, "end": 126}, 151, 24.0, 1)
+        self.assertEqual([moment.label.split("  ")[0] for moment in found],
+                         ["start", *("grasp", "lift off", "placed", "release") * 2, "end"])
 
 
 if __name__ == "__main__":

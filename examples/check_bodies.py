@@ -54,7 +54,7 @@ LINKS = [("l5s1", "c7t1"), ("l5s1", "suprasternale"), ("c7t1", "suprasternale"),
         ("clavicle", "shoulder"), ("shoulder", "elbow"), ("elbow", "wrist"), ("wrist", "grip"))]
 ENDS = np.array([[AT[a], AT[b]] for a, b in LINKS])
 SEGMENTS = ("shank", "thigh", "trunk", "upper_arm", "forearm")
-REFUSALS = re.compile(r"(out of reach from the (?:left|right) (?:shoulder|hip))$|(inside the body)|(m apart)")
+REFUSALS = re.compile(r"(out of reach from the (?:left|right) (?:shoulder|hip))$|(the corpus holds only mirror images)")
 
 
 def random_set(pick: np.random.Generator, corpora: list[rc.Corpus], folder: Path) -> rc.Corpus:

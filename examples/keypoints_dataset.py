@@ -141,22 +141,28 @@ def main(given: Sequence[str]) -> dict[str, Any]:
     stage = Stage(opened_corpus(native.core(), os.fspath(options.corpus or default_corpus())))
     task = read_task({"home": "0 0.42 0.1", "target": options.target, "variants": options.variants,
                       "seed": options.seed, "phases": "reach transfer return", "resolution": options.size,
-                      "outputs": "png"}, 1)
+                      "outputs": "png", "frame_step": options.step}, 1)
+    if options.cameras < 1:
+        raise ValueError(f"--cameras is {options.cameras}; it must be at least 1")
     size = task.resolution
-    for folder in ("images", "depth"):
-        (options.out / folder).mkdir(parents=True, exist_ok=True)
     said: dict[str, Any] = {
         "info": {"description": "Lifts predicted by Reachcast", "units": "pixels; metres"}, "images": [],
         "annotations": [], "categories": [{
             "id": 1, "name": "person", "supercategory": "person", "keypoints": list(KEYPOINTS),
             "skeleton": [[INDEX[a] + 1, INDEX[b] + 1] for a, b in BONES]}]}
+    for folder in ("images", "depth"):
+        (options.out / folder).mkdir(parents=True, exist_ok=True)
     set_pictures(scene, options.engine, size)
     studio = add_studio(scene)
     set_look(scene, Look(options.engine))
     seen_from: list[bpy.types.Object] = []
     for variant, unit in enumerate(units_of(task), 1):
         prepared, worker, load = stage.prepared(unit)
-        solved = solve(prepared)
+        try:
+            solved = solve(prepared)
+        except ValueError as error:
+            print(f"variant {variant} is left out: {error}", flush=True)
+            continue
         write_solved(prepared, solved, worker.rig, load.box, unit.id, 1, bpy.context.view_layer)
         points = motion_points(solved, load)
         place_studio(studio, Vector(((points.min(axis=0) + points.max(axis=0)) / 2.0).tolist()), AHEAD, True)
@@ -177,6 +183,8 @@ def main(given: Sequence[str]) -> dict[str, Any]:
                                        "frame": frame, "variant_seed": unit.seed, "camera": view})
                 said["annotations"].append(annotation(image, camera, view, worker.rig, solved.joints[frame - 1], size))
         print(f"variant {variant} of {options.variants}: {len(said['images'])} images", flush=True)
+    if not said["images"]:
+        raise ValueError(f"None of the {options.variants} variants can be done")
     (options.out / "annotations.json").write_text(json.dumps(said) + "\n", encoding="utf-8")
     return said
 
@@ -190,4 +198,7 @@ def write_images(out: Path, name: str, frames: Sequence[int]) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
+    try:
+        main(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
+    except ValueError as error:
+        sys.exit(f"keypoints_dataset: {error}.")

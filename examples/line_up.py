@@ -72,8 +72,8 @@ def line_up(options: argparse.Namespace) -> FamilyResult:
     return found
 
 
-def film(found: FamilyResult, options: argparse.Namespace) -> None:
-    scene, size = bpy.context.scene, read_task({"target": "0 0 0", "resolution": options.size}, 1).resolution
+def film(found: FamilyResult, options: argparse.Namespace, size: tuple[int, int]) -> None:
+    scene = bpy.context.scene
     rate = scene.render.fps / scene.render.fps_base
     scene.frame_start, scene.frame_end = 1, max(result.frames["end"] for _, result in found.results)
     set_pictures(scene, options.engine, size)
@@ -102,11 +102,12 @@ def main(given: Sequence[str]) -> FamilyResult:
     options = arguments(given)
     options.out.mkdir(parents=True, exist_ok=True)
     try:
+        size = read_task({"target": "0 0 0", "resolution": options.size, "frame_step": options.step}, 1).resolution
         found = line_up(options)
     except ValueError as error:
         sys.exit(f"line_up: {error}.")
     with quiet():
-        film(found, options)
+        film(found, options, size)
     for person, reason in found.failed:
         print(f"left out: {person}: {reason}")
     print(f"{len(found.results)} people, {bpy.context.scene.frame_end} frames: {options.out / 'line_up.mp4'}", flush=True)

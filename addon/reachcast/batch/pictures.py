@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 from collections.abc import Mapping
 from pathlib import Path
@@ -25,7 +26,6 @@ THUMBNAIL = "thumbnail.png"
 THUMBNAIL_WIDTH = 240    #: pixels
 OWN_CAMERA = "Batch Camera"
 FLESH_M = 0.15           #: by which the body may reach beyond its joint centres
-MOST_MOMENTS = 12
 
 
 def write_pictures(task: Task, prepared: Prepared, solved: Solved, worker: Worker, load: Load, first: int, rate: float,
@@ -62,20 +62,21 @@ def write_pictures(task: Task, prepared: Prepared, solved: Solved, worker: Worke
 
 
 def moments(events: Mapping[str, int], count: int, rate: float, first: int) -> list[Moment]:
-    """The start, the events and the thirds of the way of the box, in order, each frame once.
+    """The start, the events and the end, in order, each frame once; and the thirds of the way of a box that is carried
+    once.
 
     events: frames from 0; first: the scene's frame of the first of `count` frames, `rate` a second.
     """
     named = {0: "start"}
     for event, frame in events.items():
-        named.setdefault(frame, event.split("_2")[0].replace("_", " "))
-    for again in ("", *(f"_{number}" for number in range(2, MOST_MOMENTS))):
-        if (begun := events.get(f"lift_off{again}")) is not None and (put := events.get(f"placed{again}")) is not None:
-            for part in (1 / 3, 2 / 3):
-                named.setdefault(begun + round(part * (put - begun)), "on the way")
+        named.setdefault(frame, re.sub(r"_\d+$", "", event).replace("_", " "))
+    if "lift_off" in events and "placed" in events and "lift_off_2" not in events:
+        begun, put = events["lift_off"], events["placed"]
+        for part in (1 / 3, 2 / 3):
+            named.setdefault(begun + round(part * (put - begun)), "on the way")
     named.setdefault(count - 1, "end")
     return [Moment(first + frame, f"{word}   frame {first + frame}, {frame / rate:.2f} s")
-            for frame, word in sorted(named.items())[:MOST_MOMENTS]]
+            for frame, word in sorted(named.items())]
 
 
 def ready_camera(task: Task, prepared: Prepared, solved: Solved, load: Load) -> bpy.types.Object:

@@ -20,6 +20,9 @@ COLUMNS = ("id", "status", "reason", "landing_error_mm", "grip_error_mm", "foot_
 LEAST_ROOM = 256 * 1024  #: bytes; with less than this left, what Blender wrote may have been cut short unnoticed
 
 
+ROOM_TO_FAIL = 4 * 1024 * 1024  #: bytes; what fails with less left is put down to the disk: Blender does not say why
+
+
 class DiskFull(Exception):
     """One sentence; the whole run stops."""
 
@@ -69,8 +72,11 @@ class Store:
     def draft(self, unit: Unit) -> Path:
         """An empty folder to work in."""
         folder = self.own / unit.id
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir()
+        try:
+            folder.mkdir()
+        except FileExistsError:
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir()
         return folder
 
     def finish(self, unit: Unit, draft: Path, result: dict[str, object]) -> None:
@@ -78,18 +84,23 @@ class Store:
         (draft / RESULT).write_text(json.dumps(result) + "\n", encoding="utf-8")
         self.refuse_full()
         final = self.tasks / unit.id
-        if final.exists():
+        try:
+            os.rename(draft, final)
+        except OSError as error:
+            if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
+                raise
             old = self.own / f"{unit.id}.old"
             os.rename(final, old)
             os.rename(draft, final)
             shutil.rmtree(old, ignore_errors=True)
-        else:
-            os.rename(draft, final)
 
-    def refuse_full(self, error: OSError | None = None) -> None:
-        """DiskFull when `error` says so or next to nothing is left."""
-        free = shutil.disk_usage(self.out if self.out.exists() else self.out.parent).free
-        if free < LEAST_ROOM or (error is not None and error.errno in (errno.ENOSPC, errno.EDQUOT)):
+    def refuse_full(self, error: Exception | None = None) -> None:
+        """DiskFull when `error` says so or next to nothing is left; after a failure, a little more may be."""
+        try:
+            free = shutil.disk_usage(self.out).free
+        except FileNotFoundError:
+            free = shutil.disk_usage(self.out.parent).free
+        if free < (ROOM_TO_FAIL if error else LEAST_ROOM) or (isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)):
             raise DiskFull(f"The disk of '{self.out}' is full ({free // 1024} KiB left); what was finished is kept: "
                            f"make room and start again")
 

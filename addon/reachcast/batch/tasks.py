@@ -7,7 +7,7 @@ import json
 import math
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 OUTPUTS = ("action", "csv", "bvh", "gltf", "png", "mp4", "sheet")
 ENGINES = ("EEVEE", "WORKBENCH", "CYCLES")
@@ -55,7 +55,7 @@ class Unit:
 
     def checksum(self, world: str) -> str:
         """Changes with the row, the seed and `world`: corpus, scene and version."""
-        said = json.dumps([asdict(self.task), self.seed, world], sort_keys=True)
+        said = json.dumps([vars(self.task), self.seed, world], sort_keys=True)
         return hashlib.sha256(said.encode()).hexdigest()
 
 

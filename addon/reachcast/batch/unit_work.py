@@ -41,7 +41,7 @@ def work(store: Store, stage: Stage, unit: Unit, checksum: str) -> Seconds:
         _empty(draft)
         result.update(status="refused", reason=str(error))
     except Exception as error:  # noqa: BLE001  whatever it is, the other tasks are not its victims
-        store.refuse_full(error if isinstance(error, OSError) else None)
+        store.refuse_full(error)
         _empty(draft)
         result.update(status="failed", reason=_reason(error))
     predicted = predicted if predicted > began else time.perf_counter()

@@ -35,7 +35,7 @@ def main() -> None:
         pass
     except Exception as error:  # noqa: BLE001  it is raised in the process that started this one
         try:
-            store.refuse_full(error if isinstance(error, OSError) else None)
+            store.refuse_full(error)
         except DiskFull as full:
             error = full
         _reply(replies, error)

@@ -18,6 +18,8 @@ from ..rigs.rotations import Array
 #: Keys on every frame: straight between them; handles for who makes them curved later.
 _KEY_STYLE = (("interpolation", "LINEAR"), ("handle_left_type", "AUTO_CLAMPED"), ("handle_right_type", "AUTO_CLAMPED"))
 _STEP_STYLE = (("interpolation", "CONSTANT"), *_KEY_STYLE[1:])
+#: By whether keys are steps: what new keys do not have by themselves.
+_Styles = dict[bool, list[tuple[str, str]]]
 
 
 @dataclass(frozen=True)
@@ -40,12 +42,13 @@ def write_action(owner: bpy.types.Object, name: str, channels: Sequence[Channel]
     if owner.animation_data is None:
         owner.animation_data_create()
     curves, group_of = _curve_makers(owner, action)
+    unlike: _Styles = {}
     for channel, columns in _keys(channels, first_frame):
         group = group_of(channel.group)
         for index, keys in enumerate(columns):
             curve = curves.new(channel.data_path, index=index)
             curve.group = group
-            _fill(curve, keys, channel.steps is not None)
+            _fill(curve, keys, channel.steps is not None, unlike)
     _assign(owner, action)
     return action
 
@@ -63,6 +66,7 @@ def _assign(owner: bpy.types.Object, action: bpy.types.Action) -> None:
 def rewrite_action(action: bpy.types.Action, channels: Sequence[Channel], first_frame: int) -> None:
     """Other keys for the channels that `write_action` gave this Action; everything else in it stays."""
     curves = {(curve.data_path, curve.array_index): curve for curve in curves_of(action)}
+    unlike: _Styles = {}
     for channel, columns in _keys(channels, first_frame):
         for index, keys in enumerate(columns):
             curve = curves.get((channel.data_path, index))
@@ -73,7 +77,7 @@ def rewrite_action(action: bpy.types.Action, channels: Sequence[Channel], first_
                 _place(curve, keys)
             else:
                 curve.keyframe_points.clear()
-                _fill(curve, keys, channel.steps is not None)
+                _fill(curve, keys, channel.steps is not None, unlike)
     action.update_tag()
 
 
@@ -117,13 +121,16 @@ def curves_of(action: bpy.types.Action) -> Iterator[bpy.types.FCurve]:
     return (curve for bag in bags for curve in bag.fcurves if not curve.mute)
 
 
-def _fill(curve: bpy.types.FCurve, keys: Array, stepped: bool) -> None:
+def _fill(curve: bpy.types.FCurve, keys: Array, stepped: bool, unlike: _Styles) -> None:
+    """unlike: what has been found in other curves of the same call: an Action has a hundred."""
     points, count = curve.keyframe_points, len(keys) // 2
     points.add(count)
-    first = points[0]
-    for attribute, identifier in _STEP_STYLE if stepped else _KEY_STYLE:
-        if getattr(first, attribute) != identifier:  # new keys have the style of the user's preferences
-            points.foreach_set(attribute, _enum_values(attribute, identifier, count))
+    if stepped not in unlike:  # new keys have the style of the user's preferences
+        first = points[0]
+        unlike[stepped] = [style for style in (_STEP_STYLE if stepped else _KEY_STYLE)
+                           if getattr(first, style[0]) != style[1]]
+    for attribute, identifier in unlike[stepped]:
+        points.foreach_set(attribute, _enum_values(attribute, identifier, count))
     _place(curve, keys)
 
 
@@ -146,7 +153,7 @@ def _curve_makers(owner: bpy.types.Object, action: bpy.types.Action):  # type: i
     return bag.fcurves, group_of
 
 
-@functools.lru_cache(maxsize=8)
+@functools.lru_cache(maxsize=64)
 def _enum_values(attribute: str, identifier: str, count: int) -> Array:
     value = bpy.types.Keyframe.bl_rna.properties[attribute].enum_items[identifier].value
     return np.full(count, value, dtype=np.int32)
