@@ -43,11 +43,16 @@ def glb_of(path: Path) -> tuple[bytes, np.ndarray]:
     return data[:begin], np.frombuffer(data[begin + 8:], "<f4")
 
 
+def labels_of(action: bpy.types.Action) -> list[tuple[str, object]]:
+    """Custom properties, by name; arrays as lists, which can be compared."""
+    return sorted((name, value.to_list() if hasattr(value, "to_list") else value) for name, value in action.items())
+
+
 def keys_of(path: Path) -> dict[str, object]:
     """All that a file's Actions say: labels, channels, keys."""
     with bpy.data.libraries.load(os.fspath(path)) as (there, here):
         here.actions = list(there.actions)
-    said = {action.name: (sorted(action.items()), [(curve.data_path, curve.array_index, curve.group.name, [
+    said = {action.name: (labels_of(action), [(curve.data_path, curve.array_index, curve.group.name, [
         (*point.co, point.interpolation) for point in curve.keyframe_points]) for curve in curves_of(action)])
         for action in here.actions}
     bpy.data.batch_remove(here.actions)
