@@ -83,15 +83,18 @@ class Store:
         """The draft becomes the unit's folder. Until the last rename nothing of it is seen."""
         (draft / RESULT).write_text(json.dumps(result) + "\n", encoding="utf-8")
         self.refuse_full()
-        final = self.tasks / unit.id
-        try:
-            os.rename(draft, final)
-        except OSError as error:
-            if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
-                raise
-            old = self.own / f"{unit.id}.old"
-            os.rename(final, old)
-            os.rename(draft, final)
+        final, old = self.tasks / unit.id, self.own / f"{unit.id}.old"
+        while True:
+            try:
+                os.rename(draft, final)
+                return
+            except OSError as error:
+                if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
+                    raise
+            try:
+                os.rename(final, old)
+            except FileNotFoundError:
+                pass  # another process, whose run was killed, is finishing the same unit
             shutil.rmtree(old, ignore_errors=True)
 
     def refuse_full(self, error: Exception | None = None) -> None:

@@ -39,8 +39,8 @@ def _depth_world(scene: bpy.types.Scene) -> Iterator[None]:
     settings = scene.render.image_settings
     form, mode, bits = settings.file_format, settings.color_mode, settings.color_depth
     material, world = _material(), bpy.data.worlds.new(_NAME)
-    world.use_nodes = False
-    world.color = (0.0, 0.0, 0.0)
+    world.use_nodes = True
+    world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.0
     try:
         cycles.samples, cycles.use_denoising, cycles.use_adaptive_sampling = 1, False, False
         cycles.pixel_filter_type, cycles.filter_width = "BOX", 0.01
