@@ -13,8 +13,10 @@ import addon_utils
 import bpy
 import fake_core
 import reachcast
+from lift_cases import cuboid
 from reachcast import native, registration
 from reachcast.properties import missing, needs
+from reachcast.scene.read_task import read_box
 from rig_cases import mannequin
 
 CYCLES = 5
@@ -125,6 +127,18 @@ class Readiness(unittest.TestCase):
         settings.rig.data.bones["shin.L"].name = "stick"
         reason = next(need.reason for need in needs(settings) if need.name == "Rig")
         self.assertIn("shin.L", str(reason))
+
+
+class BoxMass(unittest.TestCase):
+    def test_it_is_the_custom_property_that_predictions_read(self) -> None:
+        box = cuboid("Box", (0.3, 0.3, 0.3))
+        self.assertEqual(box.reachcast_box_mass, read_box(box).mass)
+        box.reachcast_box_mass = 12.5
+        self.assertEqual((box["reachcast_mass"], read_box(box).mass), (12.5, 12.5))
+        box["reachcast_mass"] = "heavy"
+        self.assertEqual(box.reachcast_box_mass, 0.0)
+        with self.assertRaisesRegex(ValueError, "reachcast_mass is 'heavy'"):
+            read_box(box)
 
 
 class AddMannequin(unittest.TestCase):

@@ -33,10 +33,10 @@ from test_panel_window import arguments, look_at_all, open_tab, picture, player,
 sys.path[:] = [path for path in sys.path if Path(path) != ADDON]  # the installed copy, not the source, is imported
 
 STEP_PX, MOST_STEPS = 2, 25
-LEAST_UPDATES, PATIENCE_S = 5, 60.0   #: of live mode; software OpenGL on a busy machine draws a few times a second
+LEAST_UPDATES, PATIENCE_S = 5, 120.0   #: of live mode; software OpenGL on a busy machine draws a few times a second
 LANDED_M = 1e-3
 SCROLL_PX = 40          #: what one turn of the wheel scrolls
-BUTTON_PX = (95, 265)   #: from the sidebar's upper left corner to the middle of Predict Motion, at a scale of 1
+BUTTON_PX = (95, 286)   #: from the sidebar's upper left corner to the middle of Predict Motion, at a scale of 1
 
 
 def install(folder: Path) -> None:

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 from reachcast.scene.action_writer import curves_of
+from reachcast.scene.action_writer import curves_of
 from reachcast.scene.measure import Samples, sample
 from reachcast.scene.nla_strips import predicted_action, put_on_strips
 from reachcast.scene.predict_action import PredictionResult

@@ -76,6 +76,7 @@ class Documented(unittest.TestCase):
         named = {cls.bl_label for cls in shown(bpy.types.Operator, bpy.types.Panel, bpy.types.Menu)}
         for cls in shown(bpy.types.PropertyGroup, bpy.types.AddonPreferences):
             named |= {item.name for item in own_properties(cls) if cls.__name__ not in ("ListedMotion", "SegmentBone")}
+        named |= {item.name for item in on_other_types()}
         self.assertEqual([name for name in sorted(named) if f"*{name}*" not in text], [])
 
     def test_its_pictures_are_there_and_small(self) -> None:

@@ -59,6 +59,7 @@ class REACHCAST_PT_lift(Tab, bpy.types.Panel):
             if name == "corpus":
                 row.menu(REACHCAST_MT_corpora.__name__, text="", icon="DOWNARROW_HLT")
             if name == "box" and settings.box:
+                _sentence_part(column, settings.box, "of", "reachcast_box_mass")
                 split = column.split(factor=_LABELS)
                 split.label(text="held at")
                 row = split.row(align=True)
@@ -213,7 +214,7 @@ class REACHCAST_PT_result(Tab, bpy.types.Panel):
                   "DRIVER_DISTANCE")
 
 
-def _sentence_part(column: bpy.types.UILayout, settings: bpy.types.PropertyGroup, words: str,
+def _sentence_part(column: bpy.types.UILayout, settings: bpy.types.bpy_struct, words: str,
                    name: str) -> bpy.types.UILayout:
     """Words and what is chosen for them; returns the row of the latter."""
     split = column.split(factor=_LABELS)

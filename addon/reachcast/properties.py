@@ -13,6 +13,7 @@ from .corpus_settings import follow_choice
 from .scene.control_rig import CHOICES
 from .scene.movers import HOLD
 from .scene.read_rig import recognise
+from .scene.read_task import BOX_MASS, DEFAULT_MASS
 from .subject_settings import SubjectSettings
 
 #: The sentence of the last prediction that failed. On the WindowManager: neither saved nor undone.
@@ -21,6 +22,21 @@ PROBLEM = bpy.props.StringProperty(name="Problem", options={"HIDDEN", "SKIP_SAVE
 #: On an armature with controls of its own, a generated Rigify rig.
 HANDS = bpy.props.EnumProperty(name="Hands", items=CHOICES, description="How a motion is written on this rig's arms")
 FEET = bpy.props.EnumProperty(name="Feet", items=CHOICES, description="How a motion is written on this rig's legs")
+
+
+def _box_mass(box: bpy.types.Object) -> float:
+    value = box.get(BOX_MASS, DEFAULT_MASS)
+    return float(value) if isinstance(value, (int, float)) else 0.0  # a prediction refuses it by name
+
+
+def _set_box_mass(box: bpy.types.Object, value: float) -> None:
+    box[BOX_MASS] = value
+
+
+#: Of a box, kept in its custom property.
+MASS = bpy.props.FloatProperty(
+    name="Box Mass", min=0.0, max=200.0, precision=1, unit="MASS", get=_box_mass, set=_set_box_mass,
+    description="What the box weighs; the predicted person leans against it to keep the balance")
 
 
 def _is_armature(_settings: bpy.types.PropertyGroup, item: bpy.types.Object) -> bool:

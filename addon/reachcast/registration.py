@@ -56,6 +56,7 @@ def register() -> None:
     bpy.types.WindowManager.reachcast_problem = properties.PROBLEM
     bpy.types.WindowManager.reachcast_motions = bpy.props.PointerProperty(type=corpus_settings.MotionListing)
     bpy.types.Object.reachcast_hands, bpy.types.Object.reachcast_feet = properties.HANDS, properties.FEET
+    bpy.types.Object.reachcast_box_mass = properties.MASS
     bpy.types.Object.reachcast_bones = bpy.props.CollectionProperty(type=map_editing.SegmentBone)
     bpy.types.Object.reachcast_map = bpy.props.StringProperty(name="Bone Map", options={"HIDDEN"})
     bpy.types.VIEW3D_MT_armature_add.append(add_mannequin.draw_menu_entry)
@@ -67,7 +68,7 @@ def unregister() -> None:
     target_cloud.show(False)
     bpy.types.VIEW3D_MT_armature_add.remove(add_mannequin.draw_menu_entry)
     del bpy.types.Object.reachcast_map, bpy.types.Object.reachcast_bones
-    del bpy.types.Object.reachcast_hands, bpy.types.Object.reachcast_feet
+    del bpy.types.Object.reachcast_hands, bpy.types.Object.reachcast_feet, bpy.types.Object.reachcast_box_mass
     del bpy.types.WindowManager.reachcast_motions, bpy.types.WindowManager.reachcast_problem
     del bpy.types.Scene.reachcast
     for cls in reversed(CLASSES):
