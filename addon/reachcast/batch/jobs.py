@@ -7,7 +7,6 @@ import pickle
 import queue
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 from collections import Counter, deque
@@ -39,10 +38,15 @@ def run_jobs(orders: Sequence[Order], store: Store, corpus: str, count: int, pro
     """
     if not bpy.app.binary_path:
         raise JobsFailed("This Python has no Blender that could be started again; use one job")
-    with tempfile.TemporaryDirectory(prefix="reachcast-batch-") as folder:
-        scene = Path(folder) / "scene.blend"
+    folder = store.own / ".jobs"  # no task's name begins with a dot; the store drops it also after kill -9
+    folder.mkdir()
+    scene = folder / "scene.blend"
+    try:
         bpy.ops.wm.save_as_mainfile(filepath=os.fspath(scene), copy=True, check_existing=False)
-        return _Pool(orders, store, corpus, _command(scene), Path(folder)).run(min(count, len(orders)), progress)
+    except RuntimeError as error:
+        store.refuse_full(error)
+        raise JobsFailed(f"The scene cannot be copied for other processes: {' '.join(str(error).split())}") from error
+    return _Pool(orders, store, corpus, _command(scene.absolute()), folder).run(min(count, len(orders)), progress)
 
 
 def _command(scene: Path) -> list[str]:
