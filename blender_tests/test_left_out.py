@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import shutil
+import subprocess
 import tempfile
 import time
 import unittest
@@ -43,6 +44,15 @@ class ExpectedError(unittest.TestCase):
         self.assertAlmostEqual(expected_error({1: 3.0, 2: 1.0, 3: 5.0, 4: 9.0}, found), 0.035)
         self.assertIsNone(expected_error({3: 1.0, 4: 1.0}, found))
         self.assertIsNone(expected_error({}, found))
+
+    def test_blender_quits_in_peace_while_the_thread_is_at_work(self) -> None:
+        code = (f"import sys, time; sys.path.insert(0, {os.fspath(Path(left_out.__file__).parents[1])!r}); "
+                f"import addon_utils; addon_utils.enable('reachcast'); from reachcast import left_out; "
+                f"print('known:', left_out.known({self.path!r})); time.sleep(0.2)")
+        done = subprocess.run([bpy.app.binary_path, "-b", "--factory-startup", "--python-exit-code", "1", "--python-expr",
+                               code], capture_output=True, text=True, check=False, timeout=120)
+        self.assertIn("known: None", done.stdout)  # it was at work
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_an_action_says_what_it_rests_on(self) -> None:
         rig, shelf = mannequin(), bpy.data.objects.new("Shelf", None)

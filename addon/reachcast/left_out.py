@@ -63,7 +63,7 @@ def known(path: str) -> LeftOut | None:
     state = (path, status.st_ino, status.st_size, status.st_mtime_ns)
     if state not in _known and state not in _running:
         _running.add(state)
-        threading.Thread(target=_work, args=(state,), daemon=True).start()
+        threading.Thread(target=_work, args=(state,)).start()  # no daemon: Blender waits for it when it quits
         if not bpy.app.timers.is_registered(_redraw):
             bpy.app.timers.register(_redraw, first_interval=_LOOK_S)
     return _known.get(state)
