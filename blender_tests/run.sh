@@ -190,7 +190,7 @@ main() {
   WORK=$(mktemp -d)
   trap 'rm -rf "$WORK"' EXIT
   need_packages "${RUN_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
-  build_release reachcast_core reachcast_simulate
+  build_release reachcast_core simulate_corpus
   for part in "${parts[@]}"; do
     case $part in
       native) native_tests native release ;;

@@ -9,7 +9,7 @@ RUN_PACKAGES=(
   g++ cmake ninja-build python3-dev pybind11-dev libeigen3-dev libglm-dev libboost-dev libsqlite3-dev libgtest-dev
   libbenchmark-dev blender python3 python3-numpy ffmpeg fonts-dejavu-core libegl1 libgl1-mesa-dri
 )
-TEST_PACKAGES=(python3-pytest python3-scipy python3-matplotlib xvfb xauth chromium)
+TEST_PACKAGES=(python3-pytest python3-scipy python3-matplotlib xvfb xauth chromium slurm-wlm)
 
 fail() {
   echo "$*" >&2
