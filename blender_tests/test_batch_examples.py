@@ -16,6 +16,7 @@ import bpy
 import numpy as np
 from bpy_extras.object_utils import world_to_camera_view
 from mathutils import Vector
+from reachcast.rigs.joints import INDEX
 from reachcast.scene.heat_map import CELL, MARGIN, colour_of
 from reachcast.scene.measure import sample
 from reachcast.scene.read_rig import read_rig
@@ -49,6 +50,11 @@ class Example(unittest.TestCase):
 
 
 class ShelfStudy(Example):
+    def test_a_trunk_that_lies_level_is_inclined_by_a_right_angle(self) -> None:
+        joints = np.zeros((1, 27, 3))
+        joints[0, INDEX["c7t1"]] = (0.0, 0.5, 0.0)
+        np.testing.assert_allclose(shelf_study.trunk_inclination(joints), [np.pi / 2])
+
     def test_table_map_and_markers_say_the_same(self) -> None:
         cells = shelf_study.main(["--out", os.fspath(self.out), "--heights", "0.3", "1.1", "2.3", "--statures", "1.6",
                                   "1.8", "--width", "320"])

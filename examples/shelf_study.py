@@ -5,7 +5,7 @@
         [--heights 0.4 0.6 ...] [--statures 1.5 1.6 ...] [--ahead 0.45] [--load 10]
 
 The box starts in front of the body at waist height. Effort is the largest static moment at L5/S1 while the box is
-carried (`reachcast.back_load`, segment masses of Winter 2009) of a person of 24 kg per square metre of stature: the
+carried (`reachcast_core.back_moment`, segment masses of Winter 2009) of a person of 24 kg per square metre of stature: the
 back's, so an arm that is held high costs nothing here.
 Writes study.csv, heat_map.png, study.blend (a person per stature at the shelf that costs least, and a marker for every
 shelf in the colour of the map; grey: out of reach) and study.png of it.
@@ -34,10 +34,10 @@ addon_utils.enable("reachcast")
 
 import demo_render as render  # noqa: E402
 from reachcast import native  # noqa: E402
-from reachcast.back_load import back_moment, trunk_inclination  # noqa: E402
 from reachcast.batch.stage import Stage  # noqa: E402
 from reachcast.batch.tasks import Unit, read_task  # noqa: E402
 from reachcast.corpora import default_corpus, opened_corpus  # noqa: E402
+from reachcast.rigs.joints import INDEX  # noqa: E402
 from reachcast.scene.ghosts import perform_aside  # noqa: E402
 from reachcast.scene.heat_map import colour_of, write_heat_map  # noqa: E402
 from reachcast.scene.prepare import Solved, solve  # noqa: E402
@@ -97,8 +97,14 @@ def studied(stage: Stage, options: argparse.Namespace, stature: float, height: f
     centres = origins + turns @ np.array([0.0, 0.0, 0.5 * load.shape.height])
     while_held = carried(solved)
     joints = solved.joints[while_held]
-    moment = back_moment(joints, BODY_MASS_INDEX * stature ** 2, options.load, centres[while_held])
+    moment = native.core().back_moment(joints, BODY_MASS_INDEX * stature ** 2, options.load, centres[while_held])
     return Cell(stature, height, float(moment.max()), float(np.degrees(trunk_inclination(joints).max())))
+
+
+def trunk_inclination(joints: np.ndarray) -> np.ndarray:
+    """(F,) radians of the line from L5/S1 to C7/T1 from the vertical, of (F, 27, 3) joint centres."""
+    trunk = joints[:, INDEX["c7t1"]] - joints[:, INDEX["l5s1"]]
+    return np.arctan2(np.linalg.norm(trunk[:, :2], axis=1), trunk[:, 2])
 
 
 def write_table(cells: list[Cell], path: Path) -> None:

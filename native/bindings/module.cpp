@@ -11,6 +11,7 @@ PYBIND11_MODULE(reachcast_core, m) {
   m.attr("__version__") = REACHCAST_VERSION;
   bind_body(m);
   bind_posture(m);
+  bind_weight(m);
   bind_curves(m);
   bind_hand_path(m);
   bind_variation(m);
