@@ -16,6 +16,7 @@ import bpy
 import numpy as np
 from bpy_extras.object_utils import world_to_camera_view
 from mathutils import Vector
+from picture_cases import pixels
 from reachcast.rigs.joints import INDEX
 from reachcast.scene.heat_map import CELL, MARGIN, colour_of
 from reachcast.scene.measure import sample
@@ -30,17 +31,6 @@ COLOUR = 2.5 / 255.0
 PIXEL = 0.1             #: predicted joints and posed bones differ by less than a millimetre, some 0.05 pixels here
 DEPTH_M = 2e-3          #: single precision in Cycles and in the ray
 AGREEMENT = 0.9         #: of visible and depth, where a joint's pixel may be one beside an edge
-
-
-def values_of(path: Path) -> np.ndarray:
-    """(height, width, 3), top row first, as they are in the file."""
-    image = bpy.data.images.load(os.fspath(path))
-    image.colorspace_settings.name = "Non-Color"
-    values = np.empty(len(image.pixels), np.float32)
-    image.pixels.foreach_get(values)
-    width, height = image.size
-    bpy.data.images.remove(image)
-    return values.reshape(height, width, -1)[::-1, :, :3]
 
 
 class Example(unittest.TestCase):
@@ -69,7 +59,7 @@ class ShelfStudy(Example):
             self.assertEqual(bool(row["reason"]), row["height_m"] == "2.3")
         for stature in (1.6, 1.8):
             self.assertGreater(moments[stature, 0.3], 1.3 * moments[stature, 1.1])
-        picture = values_of(self.out / "heat_map.png")
+        picture = pixels(self.out / "heat_map.png")
         for row, height in enumerate((2.3, 1.1, 0.3)):
             for column, stature in enumerate((1.6, 1.8)):
                 shown = picture[MARGIN[1] + CELL[1] * row + 4, MARGIN[0] + CELL[0] * column + 4]
@@ -106,7 +96,7 @@ class Keypoints(Example):
             camera = scene.objects[f"Camera {image['file_name'][len('images/v1_c')]}"]
             scene.frame_set(image["frame"])
             joints = sample(rig, skeleton, [image["frame"]]).joints[0]
-            depth = values_of(self.out / image["depth_file_name"])[..., 0]
+            depth = pixels(self.out / image["depth_file_name"])[..., 0]
             self.check_depth(camera, depth)
             self.assertEqual(note["num_keypoints"], 23)
             for joint, (x, y, seen) in zip(joints, np.reshape(note["keypoints"], (-1, 3))):

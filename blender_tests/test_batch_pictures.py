@@ -16,6 +16,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 from mathutils import Vector
+from picture_cases import pixels
 from reachcast import native
 from reachcast.batch.pictures import moments, ready_camera
 from reachcast.batch.run import run_batch
@@ -33,17 +34,6 @@ HOME, TARGET = "0 0.42 0.1", "0.2 0.45 1.0"
 SMALL = {"home": HOME, "target": TARGET, "engine": "WORKBENCH", "resolution": "96x64"}
 SAME = 2.5 / 255.0        #: one step of eight bits, twice
 FILM = 0.03               #: mean difference of a film's picture, which H.264 has been over
-
-
-def pixels(path: Path) -> np.ndarray:
-    """(height, width, 3), top row first, 0 to 1, as they are in the file."""
-    image = bpy.data.images.load(os.fspath(path))
-    image.colorspace_settings.name = "Non-Color"
-    values = np.empty(len(image.pixels), np.float32)
-    image.pixels.foreach_get(values)
-    width, height = image.size
-    bpy.data.images.remove(image)
-    return values.reshape(height, width, -1)[::-1, :, :3]
 
 
 def projected(camera: bpy.types.Object, points: np.ndarray, size: tuple[int, int]) -> np.ndarray:
