@@ -15,7 +15,7 @@ from mathutils import Matrix, Vector
 from mathutils.geometry import tessellate_polygon
 from reachcast import native
 from reachcast.rigs.skeleton import Skeleton
-from reachcast.scene.mannequin import build_mannequin
+from reachcast.scene.mannequin import build_mannequin, standing_posture
 from reachcast.scene.read_rig import read_rig
 
 HOME = (0.0, 0.42, 0.10)
@@ -47,10 +47,7 @@ def add_worker(kind: str, stature: float) -> bpy.types.Object:
 
 
 def _add_mannequin(stature: float) -> bpy.types.Object:
-    core = native.core()
-    posture = core.Body.from_stature(stature).posture
-    joints = {name: tuple(map(float, place)) for name, place in zip(core.JOINTS, posture)}
-    worker = build_mannequin(bpy.context.collection, joints, None, name="Worker", stature=stature)
+    worker = build_mannequin(bpy.context.collection, standing_posture(stature, None), None, name="Worker", stature=stature)
     worker.rotation_euler.z = math.pi
     return worker
 

@@ -28,7 +28,7 @@ addon_utils.enable("reachcast")
 
 import bpy  # noqa: E402
 from mathutils import Vector  # noqa: E402
-from reachcast.batch.stage import add_cuboid, add_mannequin  # noqa: E402
+from reachcast.batch.stage import add_cuboid, add_mannequin, remove_made  # noqa: E402
 from reachcast.scene import camera as cameras  # noqa: E402
 from reachcast.scene.film import Moment, write_contact_sheet  # noqa: E402
 from reachcast.scene.predict_action import predict_motion  # noqa: E402
@@ -66,8 +66,9 @@ def draw(cases: Iterable[tuple[str, float, tuple[str, float, str]]], options: ar
     rig, shown, pictures = None, [], {}
     with tempfile.TemporaryDirectory(prefix="reachcast-") as folder:
         for label, stature, place in cases:
-            if rig is None or abs(rig["reachcast_stature"] - stature) > 1e-9:
-                remove(rig)
+            if rig is None or rig["reachcast_stature"] != stature:
+                if rig is not None:
+                    remove_made(rig)
                 rig = add_mannequin(stature, None)
             shelf.location, shelf.rotation_euler.z = place_at(*place)
             try:
@@ -89,11 +90,6 @@ def draw(cases: Iterable[tuple[str, float, tuple[str, float, str]]], options: ar
         with quiet():
             write_contact_sheet(shown, pictures, size, path, columns)
     return len(shown)
-
-
-def remove(rig: bpy.types.Object | None) -> None:
-    if rig is not None:
-        bpy.data.batch_remove([*rig.children, rig])
 
 
 def main() -> None:

@@ -32,7 +32,7 @@ import demo_scene as scenery  # noqa: E402
 from reachcast import native  # noqa: E402
 from reachcast.corpora import default_corpus  # noqa: E402
 from reachcast.rigs.retarget import retarget  # noqa: E402
-from reachcast.scene.mannequin import build_mannequin  # noqa: E402
+from reachcast.scene.mannequin import build_mannequin, standing_posture  # noqa: E402
 from reachcast.scene.read_rig import read_rig  # noqa: E402
 from reachcast.scene.write_motion import write_rig_action  # noqa: E402
 
@@ -67,8 +67,7 @@ def chosen(corpus, row: str):
 
 def add_person(core, motion, posture, place: Vector) -> None:
     """A mannequin in a posture, moved by `place`; with the box where the hands carry or find one."""
-    body = core.Body.from_stature(motion.subject.stature, motion.subject.sex).posture
-    joints = {name: tuple(map(float, point)) for name, point in zip(core.JOINTS, body)}
+    joints = standing_posture(motion.subject.stature, motion.subject.sex)
     worker = build_mannequin(bpy.context.collection, joints, motion.subject.sex, stature=motion.subject.stature)
     bpy.context.view_layer.update()
     skeleton = read_rig(worker)

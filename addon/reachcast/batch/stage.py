@@ -14,7 +14,7 @@ from .. import native
 from ..rigs.rotations import Array
 from ..rigs.skeleton import Skeleton
 from ..scene.carry import remove_holds
-from ..scene.mannequin import build_mannequin, dress_mannequin
+from ..scene.mannequin import build_mannequin, dress_mannequin, remove_with_meshes, standing_posture
 from ..scene.prepare import Prepared, refuse_owners
 from ..scene.read_rig import read_rig
 from ..scene.read_task import BOX_MASS, BoxShape, lift_between, read_box, standing
@@ -115,7 +115,7 @@ class Stage:
             self._workers[key] = Worker(rig, read_rig(rig))
         worker = self._workers[key]
         if task.rig is None and not WITHOUT_SURFACES.issuperset(task.outputs) and not worker.rig.children:
-            dress_mannequin(worker.rig, _posture(task.stature or DEFAULT_STATURE, task.sex))
+            dress_mannequin(worker.rig, standing_posture(task.stature or DEFAULT_STATURE, task.sex))
         return worker
 
     def _load(self, task: Task) -> Load:
@@ -141,14 +141,14 @@ class Stage:
     def _drop_made(self) -> None:
         for person in [person for person in self._workers if person[0] is None]:
             self._drop_loads(person)
-            _remove(self._workers.pop(person).rig)
+            remove_made(self._workers.pop(person).rig)
 
     def _drop_loads(self, person: Person) -> None:
         """A box that was made goes with its worker: the order of objects in the scene is the same for every task."""
         for key in [key for key in self._loads if key[0] == person]:
             load = self._loads.pop(key)
             if not isinstance(key[1], str):
-                _remove(load.box)
+                remove_made(load.box)
 
     def _placed(self, place: tuple[float, ...] | str, skeleton: Skeleton) -> Placement:
         """Numbers without a turn face the worker's feet."""
@@ -164,15 +164,9 @@ class Stage:
         return Placement(origin, skeleton.axes.T @ _about_z(facing), np.ones(3))
 
 
-def _posture(stature: float, sex: str | None) -> dict[str, tuple[float, ...]]:
-    core = native.core()
-    return {name: tuple(map(float, place))
-            for name, place in zip(core.JOINTS, core.Body.from_stature(stature, sex=sex).posture)}
-
-
 def add_mannequin(stature: float, sex: str | None, name: str = "Worker", *, dressed: bool = True) -> bpy.types.Object:
     """Standing at the origin, facing +y."""
-    rig = build_mannequin(bpy.context.scene.collection, _posture(stature, sex), sex, name=name, stature=stature,
+    rig = build_mannequin(bpy.context.scene.collection, standing_posture(stature, sex), sex, name=name, stature=stature,
                           dressed=dressed)
     rig.rotation_euler.z = math.pi
     bpy.context.view_layer.update()
@@ -214,10 +208,7 @@ def _named(name: str, what: str) -> bpy.types.Object:
     return item
 
 
-def _remove(item: bpy.types.Object) -> None:
-    """The object, its children and all that was made for them alone."""
-    remove_holds(item)
-    items = [*(child for child in item.children if child.type == "MESH"), item]
-    data = [each.data for each in items]
-    bpy.data.batch_remove(items)
-    bpy.data.batch_remove([each for each in data if each.users == 0])
+def remove_made(rig_or_box: bpy.types.Object) -> None:
+    """What was made for tasks, and what goes with its hands."""
+    remove_holds(rig_or_box)
+    remove_with_meshes(rig_or_box)

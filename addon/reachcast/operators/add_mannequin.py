@@ -6,7 +6,7 @@ import bpy
 from .. import native
 from ..preferences import SEXES, preferred
 from ..subject_settings import core_sex
-from ..scene.mannequin import build_mannequin
+from ..scene.mannequin import build_mannequin, standing_posture
 
 
 class REACHCAST_OT_add_mannequin(bpy.types.Operator):
@@ -20,7 +20,7 @@ class REACHCAST_OT_add_mannequin(bpy.types.Operator):
         subtype="DISTANCE", unit="LENGTH")
     sex: bpy.props.EnumProperty(
         name="Sex", description="Whose proportions the figure has", default="ANY",
-        items=SEXES)
+        items=(("ANY", "Any", "In between"), *SEXES[1:]))
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -41,13 +41,12 @@ class REACHCAST_OT_add_mannequin(bpy.types.Operator):
         return self.execute(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        core, sex = native.core(), core_sex(self.sex)
+        sex = core_sex(self.sex)
         try:
-            posture = core.Body.from_stature(self.stature, sex=sex).posture
+            joints = standing_posture(self.stature, sex)
         except ValueError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        joints = {name: tuple(map(float, place)) for name, place in zip(core.JOINTS, posture)}
         rig = build_mannequin(context.collection, joints, sex, name="Worker", stature=self.stature)
         rig.location = context.scene.cursor.location
         if context.scene.reachcast.rig is None:

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import bpy
 from mathutils import Matrix
 
-from .. import native
 from ..people import FAMILY, Person
 from ..rigs.skeleton import Skeleton
 from .ghosts import perform_aside
-from .mannequin import build_mannequin
+from .mannequin import build_mannequin, remove_with_meshes, standing_posture
 from .predict_action import PredictionResult
 from .prepare import prepare, solve
 from .read_rig import read_rig
@@ -39,10 +38,9 @@ def family_steps(rig: bpy.types.Object, shelf: bpy.types.Object, *, members: Seq
     """Predicts the task of `predict_motion` for every member, on a mannequin of its stature and sex.
 
     Each is predicted where `rig` stands, with the same shelf and home, and then shown `spacing` metres farther to the
-    rig's right, with a copy of the box, in a new collection; `rig` itself, its stature, sex and body mass
-    are left out. Who
-    cannot do it is named in `failed` with the reason and leaves nothing behind; ValueError when that is true of all,
-    or for bad input. A step is a member.
+    rig's right, with a copy of the box, in a new collection; `rig` itself, its stature, sex and body mass are left out.
+    Who cannot do it is named in `failed` with the reason and leaves nothing behind; ValueError when that is true of
+    all, or for bad input. A step is a member.
     """
     if not members:
         raise ValueError("The family has no members; name at least one")
@@ -63,7 +61,7 @@ def family_steps(rig: bpy.types.Object, shelf: bpy.types.Object, *, members: Seq
             prepared = prepare(worker, shelf, box=box, scene=scene, stature=person.stature, sex=person.sex, **options)
             solved = solve(prepared)
         except ValueError as error:
-            _remove(worker)
+            remove_with_meshes(worker)
             failed.append((person, str(error)))
             continue
         aside = (len(results) + 1) * spacing
@@ -79,19 +77,9 @@ def family_steps(rig: bpy.types.Object, shelf: bpy.types.Object, *, members: Seq
 
 def _mannequin(person: Person, stand: Skeleton, collection: bpy.types.Collection) -> bpy.types.Object:
     """At the rig's place and facing where it does; its name is shown in the view."""
-    core = native.core()
-    posture = core.Body.from_stature(person.stature, sex=person.sex).posture
-    joints = {name: tuple(map(float, place)) for name, place in zip(core.JOINTS, posture)}
-    worker = build_mannequin(collection, joints, person.sex, name=str(person).capitalize(), stature=person.stature)
+    worker = build_mannequin(collection, standing_posture(person.stature, person.sex), person.sex, name=str(person).capitalize(), stature=person.stature)
     right, forward, up = stand.axes
     worker.matrix_world = Matrix((*zip(-right, -forward, up, stand.origin), (0.0, 0.0, 0.0, 1.0)))
     worker.show_name = True
     return worker
 
-
-def _remove(worker: bpy.types.Object) -> None:
-    """The mannequin and all that was made for it alone."""
-    worn = [child for child in worker.children if child.type == "MESH"]
-    data = [item.data for item in (*worn, worker)]
-    bpy.data.batch_remove([*worn, worker])
-    bpy.data.batch_remove([item for item in data if item.users == 0])

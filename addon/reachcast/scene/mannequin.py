@@ -14,6 +14,7 @@ from contextlib import contextmanager
 import bpy
 from mathutils import Matrix, Vector
 
+from .. import native
 from ..rigs import mannequin_shape as shape
 from ..rigs.mannequin_tables import MATERIALS
 
@@ -24,6 +25,14 @@ GROUPS = {
     "Leg.L": ("thigh.L", "shin.L", "foot.L", "toe.L"),
     "Leg.R": ("thigh.R", "shin.R", "foot.R", "toe.R"),
 }
+
+
+def standing_posture(stature: float, sex: str | None) -> shape.Posture:
+    """Published proportions of a stature (metres) and sex ("female", "male" or None), for `build_mannequin`. ValueError
+    for a stature without any."""
+    core = native.core()
+    posture = core.Body.from_stature(stature, sex=sex).posture
+    return {name: tuple(map(float, place)) for name, place in zip(core.JOINTS, posture)}
 
 
 def build_mannequin(collection: bpy.types.Collection, posture: shape.Posture, sex: str | None, name: str = "Worker",
@@ -45,6 +54,14 @@ def build_mannequin(collection: bpy.types.Collection, posture: shape.Posture, se
             _dress(collection, armature, posture, created)
         _make_active(armature)
     return armature
+
+
+def remove_with_meshes(item: bpy.types.Object) -> None:
+    """A mannequin with its surfaces, or any object with the meshes on it, and what was made for them alone."""
+    items = [*(child for child in item.children if child.type == "MESH"), item]
+    data = [each.data for each in items]
+    bpy.data.batch_remove(items)
+    bpy.data.batch_remove([each for each in data if each.users == 0])
 
 
 def dress_mannequin(armature: bpy.types.Object, posture: shape.Posture) -> None:
