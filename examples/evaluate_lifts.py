@@ -36,14 +36,16 @@ import numpy as np  # noqa: E402
 from reachcast import native  # noqa: E402
 from reachcast.batch.stage import add_mannequin  # noqa: E402
 from reachcast.corpora import default_corpus  # noqa: E402
+from reachcast.rigs.joints import INDEX  # noqa: E402
 from reachcast.scene.measure import sample  # noqa: E402
 from reachcast.scene.read_rig import read_rig  # noqa: E402
 
 rc = native.core()
 SETS = ("OMOMO", "Lieblich", "Becanovic")
 DEFAULT = "ranks of task + stature, k = 5 (default)"
+RETARGETED = "retargeting: nearest motion, k = 1"
 SCHEMES = {
-    "retargeting: nearest motion, k = 1": {"k": 1, "sets": 1},
+    RETARGETED: {"k": 1, "sets": 1},
     "k = 3, one set": {"k": 3, "sets": 1},
     "k = 3": {"k": 3},
     DEFAULT: {},
@@ -53,9 +55,9 @@ SCHEMES = {
     "distances, local line, k = 15": {"k": 15, "distances": ["task", "stature"], "smoother": "linear"},
 }
 SIMULATED, MEAN, IK = "default scheme, corpus that ships (simulated)", "mean of joint positions", "Blender's IK"
-#: Bones pulled by Empties, the joint where the tail is, and the bones that follow: the whole figure.
+BASELINES = (RETARGETED, MEAN, IK)
+#: Bones pulled by Empties, and the joint where the tail of each is; the whole figure follows.
 PULLED = {"hand.L": "left_grip", "hand.R": "right_grip", "shin.L": "left_ankle", "shin.R": "right_ankle"}
-UP = np.array([0.0, 0.0, 1.0])
 RESAMPLES, SEED = 1000, 2004
 
 
@@ -124,7 +126,7 @@ class Puppet:
                 frames: range) -> bpy.types.Object:
         target = bpy.data.objects.new("target", None)
         bpy.context.collection.objects.link(target)
-        places = skeleton.to_world(wanted[:, people.INDEX[joint]])
+        places = skeleton.to_world(wanted[:, INDEX[joint]])
         for frame, place in zip(frames, places):
             target.location = place
             target.keyframe_insert("location", frame=frame)
@@ -181,15 +183,15 @@ def table(cases: Sequence[people.Case], errors: dict[str, list[float]]) -> list[
             apart = "" if method == DEFAULT else f" ({100 * low:+.1f} to {100 * high:+.1f})"
             failed = int(np.sum(~np.isfinite(here)))
             cells.append(f"{100 * np.median(here):.1f}{apart}" + (f", {failed} not held" if failed else ""))
-            if method in (MEAN, IK, "retargeting: nearest motion, k = 1") and np.median(here) < np.median(default):
+            if method in BASELINES and np.median(here) < np.median(default):
                 better.append(f"{method} on {name}")
         print(f"| {method} | " + " | ".join(cells) + " |")
     return better
 
 
-def print_variation(corpora: people.Corpora, cases: Sequence[people.Case]) -> None:
+def print_variation(cases: Sequence[people.Case]) -> None:
     print("\nnatural variation, one person's lifts with the same task:")
-    for name, (pairs, median) in people.natural_variation(corpora, cases).items():
+    for name, (pairs, median) in people.natural_variation(cases).items():
         print(f"  {name}: {pairs} pairs" + (f", median {100 * median:.1f} cm" if pairs else ""))
 
 
@@ -208,7 +210,7 @@ def main() -> None:
             sys.exit(str(error))
         errors = errors_of(cases, corpora, lambda line: print(line, file=sys.stderr, flush=True))
         better = table(cases, errors)
-        print_variation(corpora, cases)
+        print_variation(cases)
     if better and not options.most:
         sys.exit("better than the default scheme: " + "; ".join(better))
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from reachcast.rigs.joints import INDEX
 
 HERE = Path(__file__).resolve().parent
 TIMES = 11              #: evenly spaced from lift-off to placed
@@ -24,7 +25,6 @@ MARKERS = {"RANK": "right_ankle", "RKNE": "right_knee", "RGTR": "right_hip", "RS
            "RELB": "right_elbow", "RWRI": "right_wrist"}
 #: Markers with other names on other people: the front of the foot, and the middle of the box's far side.
 FOOT, BOX = ("BODY_RMET", "BODY_RTOE"), (("BOX_FARMID",), ("BOX_FARDL", "BOX_FARDR"))
-INDEX: dict[str, int] = {}
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,6 @@ class Corpora:
 
     def __init__(self, core: Any, mocap: Path, folder: Path) -> None:
         self.core, self.folder = core, folder
-        INDEX.update({name: number for number, name in enumerate(core.JOINTS)})
         if not (mocap / "omomo").is_dir():
             raise ValueError(f"There are no recordings in {mocap}; give their folder with --mocap")
         self.path = folder / "recorded.sqlite"
@@ -84,7 +83,7 @@ def recorded_lifts(core: Any, corpora: Corpora, mocap: Path, most: int = 0) -> l
     """All that a body of published proportions can hold. most: of each set; 0: all."""
     found = [*_of_the_corpus(core, corpora), *_becanovic(core, mocap / "becanovic_box_lifting")]
     kept = [case for _, cases in itertools.groupby(found, lambda case: case.set)
-            for case in (list(cases)[:most] if most else cases)]
+            for case in itertools.islice(cases, most or None)]
     if not kept:
         raise ValueError(f"No lift in {mocap} can be used")
     return kept
@@ -156,7 +155,7 @@ def _marker_case(subject: str, stature: float, points: dict[str, np.ndarray]) ->
                 tuple(INDEX[joint] for joint in MARKERS.values()), axes=(1, 2))
 
 
-def natural_variation(corpora: Corpora, cases: Sequence[Case]) -> dict[str, tuple[int, float]]:
+def natural_variation(cases: Sequence[Case]) -> dict[str, tuple[int, float]]:
     """Set -> (pairs, median distance in metres) of one person's lifts whose ends lie within SAME_TASK_M."""
     found: dict[str, list[float]] = {name: [] for name in dict.fromkeys(case.set for case in cases)}
     for one, other in itertools.combinations(cases, 2):
