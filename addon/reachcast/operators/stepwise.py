@@ -6,22 +6,17 @@ from typing import Any
 
 import bpy
 
-from ..scene.steps import Progress, Steps, run_to_end
+from ..scene.steps import Progress, run_to_end
 from .predict_motion import problem_of
 
 _PAUSE_S = 0.01  #: between two steps, in which Blender draws and listens
 
 
 class Stepwise:
-    """Mixin: `steps` gives the work, `finish` says what came of it. Esc keeps what is finished."""
+    """Mixin for an operator with `steps(context)`, which gives the work as scene.steps.Steps, and `finish(context, found)`,
+    which says what came of it. Esc keeps what is finished."""
 
     _timer: Any = None
-
-    def steps(self, context: bpy.types.Context) -> Steps[Any]:
-        raise NotImplementedError
-
-    def finish(self, context: bpy.types.Context, found: Any) -> str:
-        raise NotImplementedError
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         try:
