@@ -202,7 +202,6 @@ class REACHCAST_PT_result(Tab, bpy.types.Panel):
         if action["reachcast_corrections"]:
             lines(self.layout, context, f"Corrected: {action['reachcast_corrections']}", "INFO")
 
-
     def draw_expected_error(self, context: bpy.types.Context, action: bpy.types.Action) -> None:
         found = left_out.known(action.get("reachcast_corpus", ""))
         neighbours = dict(zip(action.get(TRANSFERS, ()), action.get(WEIGHTS, ())))

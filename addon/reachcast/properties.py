@@ -62,7 +62,8 @@ ERRANDS = {
 
 class ReachcastSettings(SubjectSettings, bpy.types.PropertyGroup):
     rig: bpy.props.PointerProperty(
-        name="Rig", type=bpy.types.Object, poll=_is_armature, update=follow_choice, description="The armature that carries the box")
+        name="Rig", type=bpy.types.Object, poll=_is_armature, update=follow_choice,
+        description="The armature that carries the box")
     errand: bpy.props.EnumProperty(
         name="Errand", default="LIFT", description="What the person does, from the first frame to the last",
         items=(("LIFT", "Lift", "Hands on the box at its home; carries it to the shelf and lets go"),

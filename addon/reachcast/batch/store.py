@@ -18,8 +18,6 @@ RESULT = "result.json"
 COLUMNS = ("id", "status", "reason", "landing_error_mm", "grip_error_mm", "foot_slip_mm", "duration_s", "durations",
            "outside_data", "neighbours", "corrections", "files")
 LEAST_ROOM = 256 * 1024  #: bytes; with less than this left, what Blender wrote may have been cut short unnoticed
-
-
 ROOM_TO_FAIL = 4 * 1024 * 1024  #: bytes; what fails with less left is put down to the disk: Blender does not say why
 
 
@@ -103,7 +101,8 @@ class Store:
             free = shutil.disk_usage(self.out).free
         except FileNotFoundError:
             free = shutil.disk_usage(self.out.parent).free
-        if free < (ROOM_TO_FAIL if error else LEAST_ROOM) or (isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)):
+        says_so = isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)
+        if says_so or free < (ROOM_TO_FAIL if error else LEAST_ROOM):
             raise DiskFull(f"The disk of '{self.out}' is full ({free // 1024} KiB left); what was finished is kept: "
                            f"make room and start again")
 

@@ -171,8 +171,8 @@ def _resolution(name: str, value: object) -> tuple[int, int]:
 
 
 _COLUMNS: dict[str, Callable[[str, object], object]] = {
-    "id": _identifier, "rig": _text, "stature": _number(0.5, 2.5), "sex": _one_of("female", "male"), "age": _number(0.0, 120.0),
-    "mass": _number(1.0, 400.0), "home": _place, "target": _place, "object": _object, "load": _number(0.0, 200.0),
-    "phases": _words(PHASES), "variants": _whole(0, MOST_VARIANTS), "seed": _whole(0, 2 ** 31 - 1 - MOST_VARIANTS),
+    "id": _identifier, "rig": _text, "stature": _number(0.5, 2.5), "sex": _one_of("female", "male"),
+    "age": _number(0.0, 120.0), "mass": _number(1.0, 400.0), "home": _place, "target": _place, "object": _object,
+    "load": _number(0.0, 200.0), "phases": _words(PHASES), "variants": _whole(0, MOST_VARIANTS), "seed": _whole(0, 2 ** 31 - 1 - MOST_VARIANTS),
     "outputs": _words(OUTPUTS), "engine": _one_of(*ENGINES), "camera": _text, "resolution": _resolution,
     "frame_step": _whole(1, 100)}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where pictures differ between the versions of Blender: names of engines and settings that came or went."""
+"""Where pictures and exports differ between the versions of Blender: names of engines and settings that came or went."""
 from __future__ import annotations
 
 import bpy

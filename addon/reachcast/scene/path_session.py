@@ -158,8 +158,8 @@ def begin_session(rig: bpy.types.Object, shelf: bpy.types.Object, *, home: bpy.t
                   **options: object) -> PathSession:
     """Predicts as `predict_motion` does and adds a curve for the path of every edited phase (numbers into `phases`;
     None: those that carry the box, or all when none does). Paths that were edited before in the rig's Action are taken
-    up again; curves that an earlier session left behind go. live: no curves, `edited` is not looked at. ValueError when it cannot be done; nothing has then been
-    written."""
+    up again; curves that an earlier session left behind go. live: no curves, `edited` is not looked at. ValueError when
+    it cannot be done; nothing has then been written."""
     scene = scene or bpy.context.scene
     layer = layer_of(scene)
     prepared = prepare(rig, shelf, home=home, box=box, scene=scene, **options)
