@@ -44,26 +44,31 @@ void bind_task(py::module_& m) {
         return out.str();
       });
 
-  py::class_<Task>(m, "Task", "A box goes from home to target, held by both hands.")
+  py::class_<Task>(m, "Task", "An object goes from home to target, held by both hands or by one.")
       .def(py::init([](const DoubleArray& home, const DoubleArray& target, const Box& object, double home_yaw,
-                       double target_yaw) {
-             const Task task{to_vec3(home, "home"), to_vec3(target, "target"), home_yaw, target_yaw, object};
+                       double target_yaw, const std::string& hands) {
+             const std::optional<Hands> known = find_hands(hands);
+             if (!known) throw std::invalid_argument("hands is '" + hands + "'; it must be both, left or right");
+             const Task task{to_vec3(home, "home"), to_vec3(target, "target"), home_yaw, target_yaw, object, *known};
              check(task);
              return task;
            }),
            py::arg("home"), py::arg("target"), py::arg("object") = Box{}, py::arg("home_yaw") = 0.0,
-           py::arg("target_yaw") = 0.0,
+           py::arg("target_yaw") = 0.0, py::arg("hands") = "both",
            "home, target: (3,), origin of the box at the start and the end, body frame; yaws in radians about the "
-           "vertical.")
+           "vertical. hands: 'both', 'left' or 'right'; one hand holds the object in its middle at the handle height, "
+           "whatever its grip distance.")
       .def_property_readonly("home", [](const Task& t) { return vec3_array(t.home); })
       .def_property_readonly("target", [](const Task& t) { return vec3_array(t.target); })
       .def_readonly("home_yaw", &Task::home_yaw_rad)
       .def_readonly("target_yaw", &Task::target_yaw_rad)
       .def_readonly("object", &Task::object)
+      .def_property_readonly(
+          "hands", [](const Task& t) { return hands_name(t.hands); }, "'both', 'left' or 'right'.")
       .def("__repr__", [](const Task& t) {
         std::ostringstream out;
         out << "Task(home=(" << t.home.x << ", " << t.home.y << ", " << t.home.z << "), target=(" << t.target.x << ", "
-            << t.target.y << ", " << t.target.z << "))";
+            << t.target.y << ", " << t.target.z << "), hands='" << hands_name(t.hands) << "')";
         return out.str();
       });
 }

@@ -57,12 +57,12 @@ Pool::Pool(const PhaseColumns& columns, std::span<const std::uint32_t> positions
 
 namespace {
 
-PhaseColumns columns_of(std::span<const MotionSummary> motions, Phase phase) {
+PhaseColumns columns_of(std::span<const MotionSummary> motions, Phase phase, Hands hands) {
   PhaseColumns columns;
   std::vector<std::uint32_t> all, originals;
   for (std::size_t row = 0; row < motions.size(); ++row) {
     const MotionSummary& motion = motions[row];
-    if (motion.phase != phase) continue;
+    if (motion.phase != phase || motion.hands != hands) continue;
     const auto at = static_cast<std::uint32_t>(columns.size());
     all.push_back(at);
     if (!motion.is_mirrored) originals.push_back(at);
@@ -87,9 +87,9 @@ MotionTable::MotionTable(std::vector<MotionSummary> motions) : motions_(std::mov
     std::stable_sort(motions_.begin(), motions_.end(), by_id);
 }
 
-const PhaseColumns& MotionTable::of(Phase phase) const {
-  const auto number = static_cast<std::size_t>(phase);
-  std::call_once(made_[number], [&] { phases_[number] = columns_of(motions_, phase); });
+const PhaseColumns& MotionTable::of(Phase phase, Hands hands) const {
+  const std::size_t number = static_cast<std::size_t>(phase) * kHandsCount + static_cast<std::size_t>(hands);
+  std::call_once(made_[number], [&] { phases_[number] = columns_of(motions_, phase, hands); });
   return phases_[number];
 }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "reachcast/curves/bspline.hpp"
+#include "reachcast/posture/free_arm.hpp"
 #include "reachcast/posture/twist.hpp"
 #include "reachcast/posture/whole_body.hpp"
 
@@ -18,9 +19,22 @@ constexpr Eigen::Index kSeparationStart = kPathLength + kCurveLength;
 constexpr Eigen::Index kSeparationLength = 3 * kBasisCount;
 constexpr Eigen::Index kPostureStart = kSeparationStart + kSeparationLength;
 
-Vec3 separation(const Posture& posture) {
+/// A hang is kept from the left to the right, as the way between two hands is: to the grip of a right arm, from that of
+/// a left one. So a mirror changes both alike.
+double hang_sign(Hands hands) {
+  return hands == Hands::left ? 1.0 : -1.0;
+}
+
+/// Half the way between the hands in statures, or how the free arm hangs.
+Vec3 separation(const Posture& posture, Hands hands, double stature_m) {
+  if (hands != Hands::both) return hang_sign(hands) * relative_hang(posture, hands);
   const Anchors anchors = anchors_of(posture);
-  return turned(0.5 * (anchors.grip[1] - anchors.grip[0]), -facing_yaw(anchors));
+  return turned(0.5 * (anchors.grip[1] - anchors.grip[0]), -facing_yaw(anchors)) / stature_m;
+}
+
+/// Two hands are kept at a steady distance at both ends; an arm that swings may still do so.
+double separation_time(Hands hands, double t) {
+  return hands == Hands::both ? resting_time(t) : t;
 }
 
 void check(const Reach& reach) {
@@ -49,24 +63,27 @@ MotionCode encode_reach(const Reach& reach) {
   MotionCode code;
   code.subject = reach.subject;
   code.phase = reach.phase;
+  code.hands = reach.hands;
   code.origin = reach.origin;
   code.duration_s = reach.duration_s;
   code.home = reach.hold_point(0);
   code.target = reach.hold_point(reach.frames() - 1);
   const Posture& first = reach.postures.front();
-  code.grip_distance_m = glm::distance(first[index(Joint::left_grip)], first[index(Joint::right_grip)]);
+  if (reach.hands == Hands::both)
+    code.grip_distance_m = glm::distance(first[index(Joint::left_grip)], first[index(Joint::right_grip)]);
   code.coefficients.resize(code_length());
 
   Points holds;
-  Eigen::MatrixXd separations(reach.frames(), 3), resting_basis(reach.frames(), kBasisCount);
+  Eigen::MatrixXd separations(reach.frames(), 3), separation_basis(reach.frames(), kBasisCount);
   Eigen::MatrixXd coordinates(reach.frames(), posture_coordinate_count(two_handed_linkage()));
   for (std::size_t f = 0; f < reach.frames(); ++f) {
     holds.push_back(reach.hold_point(f));
     separations.row(static_cast<Eigen::Index>(f)) =
-        to_eigen(separation(reach.postures[f]) / reach.subject.stature_m).transpose();
-    resting_basis.row(static_cast<Eigen::Index>(f)) =
-        bspline_row(resting_time(static_cast<double>(f) / static_cast<double>(reach.frames() - 1)));
-    coordinates.row(static_cast<Eigen::Index>(f)) = encode_posture(two_handed_linkage(), reach.postures[f]).transpose();
+        to_eigen(separation(reach.postures[f], reach.hands, reach.subject.stature_m)).transpose();
+    const double t = static_cast<double>(f) / static_cast<double>(reach.frames() - 1);
+    separation_basis.row(static_cast<Eigen::Index>(f)) = bspline_row(separation_time(reach.hands, t));
+    coordinates.row(static_cast<Eigen::Index>(f)) =
+        encode_posture(two_handed_linkage(), reach.postures[f], reach.hands).transpose();
   }
   try {
     set_path(code, fit_endpoint_path(holds));
@@ -74,7 +91,8 @@ MotionCode encode_reach(const Reach& reach) {
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(reach.origin + ": hold point: " + error.what());
   }
-  code.coefficients.segment<kSeparationLength>(kSeparationStart) = solve_smooth(resting_basis, separations).reshaped();
+  code.coefficients.segment<kSeparationLength>(kSeparationStart) =
+      solve_smooth(separation_basis, separations).reshaped();
   code.coefficients.tail(code_length() - kPostureStart) = fit_bspline(coordinates).reshaped();
   return code;
 }
@@ -136,6 +154,17 @@ Vec3 separation_at(const MotionCode& code, double t) {
       out[k] += local.values[i] * curves[static_cast<std::size_t>(k * kBasisCount) + i];
   }
   return out;
+}
+
+HangCurves hang_curves(const MotionCode& code) {
+  const double* start = code.coefficients.data() + kSeparationStart;
+  return hang_sign(code.hands) * Eigen::Map<const Eigen::Matrix<double, kBasisCount, 3>>(start).transpose();
+}
+
+void set_hang(MotionCode& code, const Vec3& relative_hang) {
+  for (int k = 0; k < 3; ++k)
+    code.coefficients.segment<kBasisCount>(kSeparationStart + k * kBasisCount)
+        .setConstant(hang_sign(code.hands) * relative_hang[k]);
 }
 
 PostureCurves posture_curves(const MotionCode& code) {

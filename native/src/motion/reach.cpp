@@ -47,11 +47,14 @@ std::optional<Phase> find_phase(std::string_view name) {
 
 Vec3 Reach::hold_point(std::size_t frame) const {
   const Posture& posture = postures.at(frame);
+  if (hands == Hands::left) return posture[index(Joint::left_grip)];
+  if (hands == Hands::right) return posture[index(Joint::right_grip)];
   return (posture[index(Joint::left_grip)] + posture[index(Joint::right_grip)]) * 0.5;
 }
 
 Reach mirrored(const Reach& reach) {
   Reach image = reach;
+  image.hands = mirrored(reach.hands);
   for (std::size_t joint = 0; joint < kJointCount; ++joint) {
     image.derived[joint] = reach.derived[index(mirrored(static_cast<Joint>(joint)))];
   }

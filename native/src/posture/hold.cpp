@@ -23,6 +23,7 @@ constexpr double kMassThatMoves = 0.75;  // share of the weight that goes with t
 constexpr double kFreeWrist_rad = 0.7;
 constexpr double kMostWrist_rad = 1.1;  // smoothing over time may add some
 constexpr int kWristRounds = 4;
+constexpr double kFreeStretch = 0.985;  // share of its reach up to which a free arm is as learned
 
 /// Where a limb with this reach spans from `root` to `anchor`: the nearest such place when the limb is too short. When
 /// it is too long a shoulder goes straight away from its wrist; a hip goes up, since a squat ends in standing up.
@@ -61,10 +62,16 @@ Vec3 bent_at_most(const Vec3& forearm, const Vec3& hand) {
   return std::cos(allowed) * forearm + std::sin(allowed) / size * across;
 }
 
-/// Ankles and wrists, in the order of Linkage::limbs.
-Corners limb_ends(const std::array<Vec3, 2>& wrist_from_grip, const Anchors& anchors) {
-  return {anchors.ankle[0], anchors.ankle[1], anchors.grip[0] + wrist_from_grip[0],
-          anchors.grip[1] + wrist_from_grip[1]};
+/// `across` up to nearly the whole reach, and less and less of the rest: a free arm never comes to its end with a jerk.
+Vec3 stretched_at_most(const Interval& reach, const Vec3& across) {
+  const double free = kFreeStretch * reach.hi, room = reach.hi - free, size = glm::length(across);
+  if (size <= free) return across;
+  return across * ((free + room * (1.0 - std::exp((free - size) / room))) / size);
+}
+
+/// Which limbs hold on to something: all but a free arm.
+std::array<bool, kLimbCount> holding(Hands hands) {
+  return {true, true, works(hands, 0), works(hands, 1)};
 }
 
 std::array<Vec3, 2> wrists_of(const Decoded& decoded, const Stance& stance) {
@@ -86,7 +93,7 @@ Stance Holder::settle(const Decoded& decoded, const Anchors& anchors, const Load
   MovedTrunk trunk(decoded, limbs_);
   for (int round = 0; round < kBalanceRounds; ++round) {
     const Wrists wrists = limited_wrists(decoded, trunk.roots(), anchors);
-    bring_within_reach(trunk, limb_ends(wrists, anchors), kRoomToSmooth_m);
+    bring_within_reach(trunk, wrists, anchors, kRoomToSmooth_m);
     if (round + 1 == kBalanceRounds) break;
     const Posture posture = spanned(decoded, trunk, wrists, anchors);
     const Vec3 excess = beyond_support(centre_of_mass(posture, body_mass_kg_, load), anchors);
@@ -98,7 +105,7 @@ Stance Holder::settle(const Decoded& decoded, const Anchors& anchors, const Load
 
 Stance Holder::completed(const Decoded& decoded, const Stance& stance, const Anchors& anchors) const {
   MovedTrunk trunk(decoded, limbs_, stance);
-  bring_within_reach(trunk, limb_ends(wrists_of(decoded, stance), anchors), kRoomBetween_m);
+  bring_within_reach(trunk, wrists_of(decoded, stance), anchors, kRoomBetween_m);
   return {trunk.shift(), rotation_vector(trunk.turn()), stance.wrist_from_grip};
 }
 
@@ -106,15 +113,16 @@ Posture Holder::hold(const Decoded& decoded, const Stance& stance, const Anchors
                      HoldReport& report) const {
   MovedTrunk trunk(decoded, limbs_, stance);
   const Wrists wrists = wrists_of(decoded, stance);
-  const Corners ends = limb_ends(wrists, anchors);
-  bring_within_reach(trunk, ends, kMargin_m);
-  measure_shortfall(trunk.roots(), ends, report);
+  bring_within_reach(trunk, wrists, anchors, kMargin_m);
+  const Corners ends = limb_ends(wrists, trunk.roots(), anchors);
+  const Pulling pulling = holding(anchors.hands);
+  measure_shortfall(trunk.roots(), ends, pulling, report);
   const Posture posture = spanned(decoded, trunk, wrists, anchors);
   report.unbalanced_m = glm::length(beyond_support(centre_of_mass(posture, body_mass_kg_, load), anchors));
   if (report.shortfall_m == 0.0 && report.unbalanced_m > kFalling_m) {
     // The limbs can hold on, the person cannot: so much nearer would the trunk have to be.
     const auto stretch = [&](std::size_t arm) {
-      return glm::distance(trunk.roots()[arm], ends[arm]) / chains_[arm].reach().hi;
+      return pulling[arm] ? glm::distance(trunk.roots()[arm], ends[arm]) / chains_[arm].reach().hi : 0.0;
     };
     report.shortfall_m = (report.unbalanced_m - kFalling_m) / kMassThatMoves;
     report.shortfall_from = limbs_[stretch(2) > stretch(3) ? 2 : 3].root;
@@ -131,7 +139,8 @@ Holder::Wrists Holder::limited_wrists(const Decoded& decoded, const Corners& roo
   for (const std::size_t side : {0u, 1u}) {
     const std::size_t arm = 2 + side;
     const double length = glm::length(decoded.wrist_from_grip[side]);
-    const Vec3 learned = -decoded.wrist_from_grip[side] / length, grip = anchors.grip[side];
+    const Vec3 learned = -decoded.wrist_from_grip[side] / length;
+    const Vec3 grip = works(anchors.hands, side) ? anchors.grip[side] : roots[arm] + anchors.hang;
     const double away = glm::distance(grip, roots[arm]);
     Vec3 hand = bent_at_most(away > 1e-9 ? (grip - roots[arm]) / away : learned, learned);
     for (int round = 0; round < kWristRounds; ++round) {
@@ -148,7 +157,7 @@ Holder::Wrists Holder::limited_wrists(const Decoded& decoded, const Corners& roo
 /// The decoded posture with its trunk moved, its limbs, hands and feet where they belong.
 Posture Holder::spanned(const Decoded& decoded, const MovedTrunk& trunk, const Wrists& wrists,
                         const Anchors& anchors) const {
-  const Corners ends = limb_ends(wrists, anchors);
+  const Corners ends = limb_ends(wrists, trunk.roots(), anchors);
   Posture posture;
   trunk.place(decoded, posture);
   for (std::size_t i = 0; i < kLimbCount; ++i) span_limb(limbs_[i], chains_[i], decoded.planes[i], ends[i], posture);
@@ -160,42 +169,55 @@ Posture Holder::spanned(const Decoded& decoded, const MovedTrunk& trunk, const W
   return posture;
 }
 
+/// Ankles and wrists, in the order of Linkage::limbs. A free wrist goes with its shoulder.
+Corners Holder::limb_ends(const Wrists& wrists, const Corners& roots, const Anchors& anchors) const {
+  Corners ends{anchors.ankle[0], anchors.ankle[1], anchors.grip[0] + wrists[0], anchors.grip[1] + wrists[1]};
+  if (anchors.hands == Hands::both) return ends;
+  const std::size_t side = free_side(anchors.hands), arm = 2 + side;
+  ends[arm] = roots[arm] + stretched_at_most(chains_[arm].reach(), anchors.hang + wrists[side]);
+  return ends;
+}
+
 /// Every root is pulled to where its limb just reaches and the trunk follows as a rigid body, again and again until all
 /// reach. The same steps are taken for every input, so that neighbouring inputs have neighbouring results.
-void Holder::bring_within_reach(MovedTrunk& trunk, const Corners& ends, double margin_m) const {
+void Holder::bring_within_reach(MovedTrunk& trunk, const Wrists& wrists, const Anchors& anchors,
+                                double margin_m) const {
+  const Corners ends = limb_ends(wrists, trunk.roots(), anchors);
+  const Pulling pulling = holding(anchors.hands);
   for (int round = 0; round < kReachRounds; ++round) {
     Corners wanted;
-    if (pulled_roots(trunk.roots(), ends, kLimbCount, margin_m, wanted) < kTolerance_m) return;
+    if (pulled_roots(trunk.roots(), ends, pulling, margin_m, wanted) < kTolerance_m) return;
     trunk.shift_by(mean_pull(trunk.roots(), wanted));
-    (void)pulled_roots(trunk.roots(), ends, kLimbCount, margin_m, wanted);
+    (void)pulled_roots(trunk.roots(), ends, pulling, margin_m, wanted);
     // Only a quarter of the turn: a shift is preferred.
     trunk.turn_about_roots_by(quarter_of(nearest_turn(trunk.roots(), wanted)), kMostTurn_rad);
   }
 }
 
 /// The feet hold; what is missing is missing at the hands.
-void Holder::measure_shortfall(Corners roots, const Corners& ends, HoldReport& report) const {
+void Holder::measure_shortfall(Corners roots, const Corners& ends, const Pulling& pulling, HoldReport& report) const {
   report.shortfall_m = 0.0;
   Corners wanted;
-  if (pulled_roots(roots, ends, kLimbCount, kMargin_m, wanted) < kMargin_m) return;
+  if (pulled_roots(roots, ends, pulling, kMargin_m, wanted) < kMargin_m) return;
   for (int round = 0; round < kReachRounds; ++round) {
-    if (pulled_roots(roots, ends, 2, kMargin_m, wanted) < kTolerance_m) break;
+    if (pulled_roots(roots, ends, {true, true, false, false}, kMargin_m, wanted) < kTolerance_m) break;
     const Vec3 pull = mean_pull(roots, wanted);
     for (Vec3& root : roots) root += pull;
   }
-  pulled_roots(roots, ends, kLimbCount, kMargin_m, wanted);
+  pulled_roots(roots, ends, pulling, kMargin_m, wanted);
   for (std::size_t i = 0; i < kLimbCount; ++i) {
     const double gap = glm::distance(wanted[i], roots[i]);
     if (gap > report.shortfall_m) report.shortfall_m = gap, report.shortfall_from = limbs_[i].root;
   }
 }
 
-/// Where the first `count` limbs want their roots; the others stay. Returns the longest pull.
-double Holder::pulled_roots(const Corners& roots, const Corners& ends, std::size_t count, double margin_m,
+/// Where the limbs that pull want their roots; the others stay. Returns the longest pull.
+double Holder::pulled_roots(const Corners& roots, const Corners& ends, const Pulling& pulling, double margin_m,
                             Corners& wanted) const {
   wanted = roots;
   double longest = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < kLimbCount; ++i) {
+    if (!pulling[i]) continue;
     wanted[i] = brought_within(chains_[i].reach(), roots[i], ends[i], margin_m, i < 2);
     if (wanted[i] != roots[i]) longest = std::max(longest, glm::distance(wanted[i], roots[i]));
   }

@@ -10,7 +10,8 @@
 namespace reachcast {
 namespace {
 
-constexpr double kSeenFrom_m = 0.1;   // behind the ankles
+constexpr double kSeenFrom_m = 0.1;                               // behind the ankles
+constexpr double kOneHandBehind_m = 0.3, kOneHandAside_m = 0.22;  // where one hand is seen from; it hangs so far aside
 constexpr double kPelvisShare = 0.4;  // feet on the floor: some 35 degrees of hip rotation at a full side reach
 constexpr double kChestShare = 0.8;   // and as much again between pelvis and chest
 
@@ -26,12 +27,14 @@ const std::array<std::vector<Joint>, kLimbCount>& carried_by_ends() {
 
 }  // namespace
 
-double facing_yaw(const Vec3& between_ankles, const Vec3& hold_point) {
-  return std::atan2(-(hold_point.x - between_ankles.x), hold_point.y - between_ankles.y + kSeenFrom_m);
+double facing_yaw(const Vec3& between_ankles, const Vec3& hold_point, Hands hands) {
+  Vec3 from = between_ankles - Vec3(0.0, hands == Hands::both ? kSeenFrom_m : kOneHandBehind_m, 0.0);
+  if (hands != Hands::both) from.x += hands == Hands::left ? -kOneHandAside_m : kOneHandAside_m;
+  return std::atan2(-(hold_point.x - from.x), hold_point.y - from.y);
 }
 
 double facing_yaw(const Anchors& anchors) {
-  return facing_yaw(0.5 * (anchors.ankle[0] + anchors.ankle[1]), 0.5 * (anchors.grip[0] + anchors.grip[1]));
+  return facing_yaw(0.5 * (anchors.ankle[0] + anchors.ankle[1]), hold_point(anchors), anchors.hands);
 }
 
 Anchors with_grips_turned(const Anchors& anchors, double yaw_rad) {
@@ -55,7 +58,7 @@ Posture turned_trunk(const Posture& posture, double yaw_rad) {
   return out;
 }
 
-Posture twisted(const Posture& posture, double yaw_rad) {
+Posture twisted(const Posture& posture, double yaw_rad, Hands hands) {
   using enum Joint;
   const Vec3 feet = 0.5 * (posture[index(left_ankle)] + posture[index(right_ankle)]);
   Posture out = turned_trunk(posture, yaw_rad);
@@ -63,7 +66,9 @@ Posture twisted(const Posture& posture, double yaw_rad) {
     const LimbSpec& limb = two_handed_linkage().limbs[i];
     const bool is_arm = i >= 2;
     const LimbPlane plane = plane_of(limb, posture);
-    const Vec3 end = is_arm ? feet + turned(posture[index(limb.end)] - feet, yaw_rad) : posture[index(limb.end)];
+    const bool is_free = is_arm && !works(hands, i - 2);
+    const Vec3 about = is_free ? posture[index(limb.root)] : feet, carried = is_free ? out[index(limb.root)] : feet;
+    const Vec3 end = is_arm ? carried + turned(posture[index(limb.end)] - about, yaw_rad) : posture[index(limb.end)];
     span_limb(limb, chain_of(limb, posture, false),
               {turned(plane.normal, limb.turn * yaw_rad), turned(plane.axis, limb.turn * yaw_rad)}, end, out);
     for (const Joint j : carried_by_ends()[i]) {

@@ -59,9 +59,11 @@ Mat3 turn_of(const RigidSpec& part, const Posture& stand, const Posture& posture
   return frame_of(part, posture) * glm::transpose(frame_of(part, stand));
 }
 
-/// Level axes of the held object: x from the left grip to the right one.
-Mat3 object_frame(const Vec3& left_grip, const Vec3& right_grip) {
-  const Vec3 across = right_grip - left_grip;
+/// Level axes of the held object: x from the left grip to the right one; those of the person who faces it where one
+/// hand holds it.
+Mat3 object_frame(const std::array<Vec3, 2>& grips, Hands hands) {
+  if (hands != Hands::both) return Mat3(1.0);
+  const Vec3 across = grips[1] - grips[0];
   const double size = std::hypot(across.x, across.y);
   const Vec3 x = size > 1e-6 ? Vec3(across.x / size, across.y / size, 0.0) : Vec3(1, 0, 0);
   return {x, Vec3(-x.y, x.x, 0.0), Vec3(0, 0, 1)};
@@ -84,10 +86,17 @@ Mat3 frame_about(const Vec3& a, const Vec3& b, const Vec3& normal) {
   return {axis, toward, glm::cross(axis, toward)};
 }
 
-/// Midway between two turns, of which the second is seen in a mirror that exchanges left and right.
-Quat middle_turn(const Quat& one, const Quat& mirrored) {
-  const Quat other(mirrored.w, mirrored.x, -mirrored.y, -mirrored.z);
+/// A turn as seen in a mirror that exchanges left and right.
+Quat mirrored_turn(const Quat& turn) {
+  return {turn.w, turn.x, -turn.y, -turn.z};
+}
+
+Quat middle_turn(const Quat& one, const Quat& other) {
   return glm::normalize(glm::dot(one, other) < 0.0 ? one - other : one + other);
+}
+
+Vec3 mirrored_point(const Vec3& p) {
+  return {-p.x, p.y, p.z};
 }
 
 Vec3 direction(const double* stored, const Vec3& otherwise) {
@@ -100,9 +109,10 @@ Vec3 direction(const double* stored, const Vec3& otherwise) {
 
 Anchors mirrored(const Anchors& anchors) {
   const auto flip = [](const std::array<Vec3, 2>& pair) {
-    return std::array{Vec3(-pair[1].x, pair[1].y, pair[1].z), Vec3(-pair[0].x, pair[0].y, pair[0].z)};
+    return std::array{mirrored_point(pair[1]), mirrored_point(pair[0])};
   };
-  return {flip(anchors.ball), flip(anchors.ankle), flip(anchors.grip)};
+  return {flip(anchors.ball), flip(anchors.ankle), flip(anchors.grip), mirrored(anchors.hands),
+          mirrored_point(anchors.hang)};
 }
 
 Mat3 triangle_frame(const Vec3& a, const Vec3& b, const Vec3& apex) {
@@ -111,11 +121,22 @@ Mat3 triangle_frame(const Vec3& a, const Vec3& b, const Vec3& apex) {
   return {x, glm::cross(z, x), z};
 }
 
-Anchors anchors_of(const Posture& p) {
+Anchors anchors_of(const Posture& p, Hands hands) {
   using enum Joint;
-  return {{p[index(left_ball)], p[index(right_ball)]},
-          {p[index(left_ankle)], p[index(right_ankle)]},
-          {p[index(left_grip)], p[index(right_grip)]}};
+  Anchors anchors{{p[index(left_ball)], p[index(right_ball)]},
+                  {p[index(left_ankle)], p[index(right_ankle)]},
+                  {p[index(left_grip)], p[index(right_grip)]},
+                  hands,
+                  Vec3(0.0)};
+  if (hands == Hands::both) return anchors;
+  const std::size_t free = free_side(hands);
+  anchors.hang = anchors.grip[free] - p[index(free == 0 ? left_shoulder : right_shoulder)];
+  return anchors;
+}
+
+Vec3 hold_point(const Anchors& anchors) {
+  if (anchors.hands != Hands::both) return anchors.grip[working_side(anchors.hands)];
+  return 0.5 * (anchors.grip[0] + anchors.grip[1]);
 }
 
 Eigen::Index posture_coordinate_count(const Linkage& linkage) {
@@ -138,15 +159,15 @@ Chain chain_of(const ChainSpec& spec, const Posture& posture, bool limited) {
   return {std::move(lengths), std::move(pivots), std::move(limits)};
 }
 
-Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded) {
-  const Posture posture = twisted(recorded, -facing_yaw(anchors_of(recorded)));
+Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded, Hands hands) {
+  const Posture posture = twisted(recorded, -facing_yaw(anchors_of(recorded, hands)), hands);
+  const Mat3 object = object_frame(anchors_of(posture).grip, hands);
   Eigen::VectorXd out(posture_coordinate_count(linkage));
   double* next = encode_trunk(linkage, posture, out.data());
   next = encode_trunk(linkage, mirrored(posture), next);
   for (const PointerSpec& pointer : linkage.pointers) {
-    const Mat3 turn = pointer.part == PointerSpec::kObject
-                          ? object_frame(posture[index(Joint::left_grip)], posture[index(Joint::right_grip)])
-                          : turn_of(linkage.parts[pointer.part], upright(), posture);
+    const Mat3 turn =
+        pointer.part == PointerSpec::kObject ? object : turn_of(linkage.parts[pointer.part], upright(), posture);
     const Vec3 local = glm::transpose(turn) * glm::normalize(posture[index(pointer.to)] - posture[index(pointer.from)]);
     for (int i = 0; i < 3; ++i) *next++ = local[i];
   }
@@ -183,18 +204,14 @@ Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates
   const double yaw = facing_yaw(wanted);
   const Anchors anchors = with_grips_turned(wanted, -yaw);
   const double* next = coordinates.data();
-  const std::size_t trunk_count = sides_[0].primary.coordinate_count() + 3 * kPartCount;
-  Trunk trunk = trunk_of(sides_[0], next, anchors);
-  const Trunk mirror = trunk_of(sides_[1], next + trunk_count, mirrored(anchors));
-  trunk.waist = 0.5 * (trunk.waist + Vec3(-mirror.waist.x, mirror.waist.y, mirror.waist.z));
-  for (std::size_t i = 0; i < kPartCount; ++i) trunk.turns[i] = middle_turn(trunk.turns[i], mirror.turns[i]);
-  next += 2 * trunk_count;
+  const Trunk trunk = trunk_between(next, anchors);
+  next += 2 * (sides_[0].primary.coordinate_count() + 3 * kPartCount);
   Posture posture{};
   for (const std::size_t side : {0u, 1u}) {
     posture[index(side == 0 ? Joint::left_grip : Joint::right_grip)] = anchors.grip[side];
     posture[index(side == 0 ? Joint::left_ankle : Joint::right_ankle)] = anchors.ankle[side];
   }
-  place_trunk(trunk, next, posture);
+  place_trunk(trunk, next, object_frame(anchors.grip, anchors.hands), posture);
   next += 3 * linkage_.pointers.size();
   Decoded decoded;
   for (std::size_t i = 0; i < kLimbCount; ++i) {
@@ -208,6 +225,20 @@ Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates
   }
   decoded.trunk = turned_trunk(posture, yaw);
   return decoded;
+}
+
+/// With both hands at work, the mean of the trunk and of the mirror image's trunk.
+BodyLinkage::Trunk BodyLinkage::trunk_between(const double* stored, const Anchors& anchors) const {
+  if (anchors.hands == Hands::right) return trunk_of(sides_[0], stored, anchors);
+  const std::size_t count = sides_[0].primary.coordinate_count() + 3 * kPartCount;
+  Trunk image = trunk_of(sides_[1], stored + count, mirrored(anchors));
+  image.waist = mirrored_point(image.waist);
+  for (Quat& turn : image.turns) turn = mirrored_turn(turn);
+  if (anchors.hands == Hands::left) return image;
+  Trunk trunk = trunk_of(sides_[0], stored, anchors);
+  trunk.waist = 0.5 * (trunk.waist + image.waist);
+  for (std::size_t i = 0; i < kPartCount; ++i) trunk.turns[i] = middle_turn(trunk.turns[i], image.turns[i]);
+  return trunk;
 }
 
 BodyLinkage::Trunk BodyLinkage::trunk_of(const Side& side, const double* stored, const Anchors& anchors) const {
@@ -227,7 +258,7 @@ BodyLinkage::Trunk BodyLinkage::trunk_of(const Side& side, const double* stored,
   return trunk;
 }
 
-void BodyLinkage::place_trunk(const Trunk& trunk, const double* pointers, Posture& posture) const {
+void BodyLinkage::place_trunk(const Trunk& trunk, const double* pointers, const Mat3& object, Posture& posture) const {
   std::array<Mat3, kPartCount> turns;
   const Vec3 waist = body_.at(Joint::l5s1);
   for (std::size_t i = 0; i < kPartCount; ++i) {
@@ -237,7 +268,6 @@ void BodyLinkage::place_trunk(const Trunk& trunk, const double* pointers, Postur
     for (const Joint j : {part.a, part.b, part.apex}) place(j);
     for (const Joint j : part.riders) place(j);
   }
-  const Mat3 object = object_frame(posture[index(Joint::left_grip)], posture[index(Joint::right_grip)]);
   for (std::size_t i = 0; i < linkage_.pointers.size(); ++i, pointers += 3) {
     const PointerSpec& pointer = linkage_.pointers[i];
     const Mat3& frame = pointer.part == PointerSpec::kObject ? object : turns[pointer.part];

@@ -53,6 +53,7 @@ void clamp_exponents(MotionCode& code) {
 
 void mean_of(std::span<const WeightedCode> codes, const Query& query, MotionCode& mean) {
   mean.phase = query.phase;
+  mean.hands = query.hands;
   mean.home = query.home;
   mean.target = query.target;
   mean.coefficients = sum_of(codes, query);
@@ -99,7 +100,7 @@ void blend_codes(std::span<const WeightedCode> at_home, std::span<const Weighted
 
 Blend blend_neighbours(const MotionTable& table, const Query& query, const Scheme& scheme, const CodeOf& code_of,
                        const LeftOut& left_out) {
-  Search search(table, query, positions_of(table, query.phase, left_out));
+  Search search(table, query, positions_of(table, query, left_out));
   const auto shares_for = [&](End end) { return search.shares(scheme, end, search.nearest(scheme, end)); };
   const bool one = scheme.effective_sets() == Sets::one;
   const std::vector<Share> at_home = shares_for(one ? End::both : End::home);
@@ -112,7 +113,7 @@ Blend blend_neighbours(const MotionTable& table, const Query& query, const Schem
   const auto codes_of = [&](const std::vector<Share>& shares) {
     std::vector<WeightedCode> codes;
     for (const Share& share : shares) {
-      const std::int64_t id = table.motions()[table.of(query.phase).rows[share.at]].id;
+      const std::int64_t id = table.motions()[table.of(query.phase, query.hands).rows[share.at]].id;
       kept.push_back(code_of(id));
       require_length(id, *kept.back());
       codes.push_back({kept.back().get(), share.weight});

@@ -9,6 +9,9 @@
 #include <utility>
 
 #include "reachcast/curves/normal_numbers.hpp"
+#include "reachcast/motion/encode.hpp"
+#include "reachcast/posture/free_arm.hpp"
+#include "reachcast/predict/stand.hpp"
 
 namespace reachcast {
 namespace {
@@ -16,23 +19,32 @@ namespace {
 constexpr double kFarFromData_m = 0.25;
 constexpr double kStatureMargin_m = 0.03;
 
-/// A phase in whose stead another serves, and whether it is played backwards for that.
+/// What serves in the stead of a phase, whether it is played backwards for that, and whose hands it is of.
 struct Substitute {
   Phase phase = Phase::transfer;
   bool backwards = false;
+  Hands hands = Hands::both;
 };
 
 /// Best first. Phases that bring the hands to a place: transfer and reach; the others take them from one.
-std::array<Substitute, 4> substitutes_for(Phase phase) {
+std::array<Substitute, 4> substitutes_for(Phase phase, Hands hands) {
   const bool arrives = phase == Phase::reach || phase == Phase::transfer;
   const bool loaded = is_loaded(phase);
   const Phase other = arrives ? (loaded ? Phase::reach : Phase::transfer) : (loaded ? Phase::return_ : Phase::retrieve);
-  return {{{phase, false}, {opposite(phase), true}, {other, false}, {opposite(other), true}}};
+  return {
+      {{phase, false, hands}, {opposite(phase), true, hands}, {other, false, hands}, {opposite(other), true, hands}}};
 }
 
-Substitute substitute_in(const MotionTable& table, Phase phase) {
-  for (const Substitute& substitute : substitutes_for(phase)) {
-    if (!table.of(substitute.phase).rows.empty()) return substitute;
+/// Motions of other hands come last.
+Substitute substitute_in(const MotionTable& table, const Query& query) {
+  for (const Hands hands : {query.hands, Hands::both}) {
+    for (const Substitute& substitute : substitutes_for(query.phase, hands)) {
+      if (!table.of(substitute.phase, substitute.hands).rows.empty()) return substitute;
+    }
+  }
+  if (!table.motions().empty()) {
+    throw std::invalid_argument("the corpus holds motions of one hand only; it has nothing to say about " +
+                                std::string(query.hands == Hands::both ? "both" : "the other"));
   }
   throw std::invalid_argument("the corpus holds no motions; import some first");
 }
@@ -60,6 +72,25 @@ std::vector<std::string> why_outside(const PhaseColumns& recorded, const Query& 
     add("stature ", query.subject.stature_m, " m lies outside the recorded ", shortest, " to ", tallest, " m");
   }
   return reasons;
+}
+
+/// Postures of both hands serve one: the trunk as it comes to the working one, the other arm at ease.
+void lend(const Query& query, Blend& blend) {
+  const Posture ease = standing_at_ease(Body::from_stature(query.subject.stature_m, query.subject.sex));
+  const Vec3 hang = relative_hang(ease, query.hands);
+  for (MotionCode* code : {&blend.from, &blend.to, &blend.whole}) {
+    code->hands = query.hands;
+    set_hang(*code, hang);
+  }
+}
+
+std::string why_borrowed(const Query& query, const Substitute& substitute) {
+  const std::string phase(phase_name(query.phase));
+  std::string hand, with;
+  if (query.hands != Hands::both) hand = " with the " + std::string(hands_name(query.hands)) + " hand";
+  if (query.hands != substitute.hands) with = " with both hands";
+  return "no " + phase + hand + " was recorded; postures are those of a " + std::string(phase_name(substitute.phase)) +
+         with + (substitute.backwards ? " played backwards" : "");
 }
 
 /// The motions whose covariance is drawn from, in the order of their ids.
@@ -91,20 +122,20 @@ void draw_variation(const Corpus& corpus, const MotionTable& table, const Query&
 
 LearnedStage learn_stage(const Corpus& corpus, const MotionTable& table, const Query& query, const Scheme& scheme,
                          const std::optional<Variation>& variation, std::uint64_t draw) {
-  const Substitute substitute = substitute_in(table, query.phase);
+  const Substitute substitute = substitute_in(table, query);
   Query asked = query;
   asked.phase = substitute.phase;
+  asked.hands = substitute.hands;
   if (substitute.backwards) std::swap(asked.home, asked.target);
   LearnedStage out;
   out.blend = blend_neighbours(table, asked, scheme, [&](std::int64_t id) { return corpus.code(id); });
   if (variation) draw_variation(corpus, table, asked, scheme, *variation, draw, out.blend);
-  out.outside = why_outside(table.of(asked.phase), asked);
+  out.outside = why_outside(table.of(asked.phase, asked.hands), asked);
   if (substitute.backwards) reverse(out.blend);
-  if (substitute.phase == query.phase) return out;
+  if (substitute.phase == query.phase && substitute.hands == query.hands) return out;
+  if (substitute.hands != query.hands) lend(query, out.blend);
   out.borrowed = substitute.phase;
-  out.outside.insert(out.outside.begin(),
-                     "no " + std::string(phase_name(query.phase)) + " was recorded; postures are those of a " +
-                         std::string(phase_name(substitute.phase)) + (substitute.backwards ? " played backwards" : ""));
+  out.outside.insert(out.outside.begin(), why_borrowed(query, substitute));
   return out;
 }
 
@@ -120,7 +151,14 @@ LearnedStage retargeted_stage(const Corpus& corpus, const MotionTable& table, co
     throw std::invalid_argument("motion " + std::to_string(id) + " is a " + std::string(phase_name(found->phase)) +
                                 "; it cannot serve as a " + std::string(phase_name(query.phase)));
   }
-  const std::vector<std::uint32_t>& rows = table.of(query.phase).rows;
+  if (found->hands != query.hands) {
+    const auto of = [](Hands hands) {
+      return hands == Hands::both ? "both hands" : "the " + std::string(hands_name(hands)) + " hand";
+    };
+    throw std::invalid_argument("motion " + std::to_string(id) + " is one of " + of(found->hands) +
+                                "; it cannot serve for " + of(query.hands));
+  }
+  const std::vector<std::uint32_t>& rows = table.of(query.phase, query.hands).rows;
   const auto at = std::lower_bound(rows.begin(), rows.end(), static_cast<std::uint32_t>(found - motions.begin()));
   const std::shared_ptr<const MotionCode> code = corpus.code(id);
   const WeightedCode alone{code.get(), 1.0};

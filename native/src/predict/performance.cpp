@@ -7,6 +7,7 @@
 #include "reachcast/motion/encode.hpp"
 #include "reachcast/posture/linkage.hpp"
 #include "reachcast/posture/twist.hpp"
+#include "reachcast/predict/body_curves.hpp"
 #include "reachcast/predict/stand.hpp"
 
 namespace reachcast {
@@ -32,24 +33,6 @@ double smooth(double t) {
 
 }  // namespace
 
-Vec3 hold_point(const Grips& grips) {
-  return 0.5 * (grips[0] + grips[1]);
-}
-
-Grips grips_on(const Task& task, Place place) {
-  const BoxPose pose =
-      place == Place::home ? BoxPose{task.home, task.home_yaw_rad} : BoxPose{task.target, task.target_yaw_rad};
-  return {grip_of(task.object, pose, true), grip_of(task.object, pose, false)};
-}
-
-HandEnds hand_ends(const Stage& stage, const Task& task, const Body& body) {
-  const Grips here = grips_on(task, stage.object);
-  const Grips hanging = anchors_of(standing_at_ease(body)).grip;
-  if (stage.phase == Phase::reach) return {hanging, here};
-  if (stage.phase == Phase::return_) return {here, hanging};
-  return {here, grips_on(task, other(stage.object))};
-}
-
 Performance::Performance(const Plan& plan, const std::vector<Blend>& blends, const std::vector<StageWay>& ways,
                          const Task& task, const Body& body, double body_mass_kg, double frame_rate)
     : plan_(plan),
@@ -61,6 +44,7 @@ Performance::Performance(const Plan& plan, const std::vector<Blend>& blends, con
       linkage_(two_handed_linkage(), body),
       holder_(two_handed_linkage(), body, body_mass_kg),
       ways_(ways) {
+  task_.object = held_by(task.object, task.hands);
   for (std::size_t i = 0; i < plan.stages.size(); ++i) acts_.push_back(act_of(plan.stages[i], blends[i], ways[i]));
   for (std::size_t i = 0; i < acts_.size(); ++i) join(i);
   find_openings();
@@ -91,8 +75,8 @@ Performance::Act Performance::act_of(const Stage& stage, const Blend& blend, con
           .half_first = Vec3(0.0),
           .half_last = Vec3(0.0),
           .opening_m = 0.0,
-          .curves_from = posture_curves(blend.from),
-          .curves_to = posture_curves(blend.to)};
+          .curves_from = body_curves(blend.from),
+          .curves_to = body_curves(blend.to)};
   if (is_loaded(stage.phase)) {
     act.turning = turning_of(act);
     return act;
@@ -108,7 +92,7 @@ Performance::Act Performance::act_of(const Stage& stage, const Blend& blend, con
 /// shift the curve.
 void Performance::join(std::size_t i) {
   Act& act = acts_[i];
-  const auto at_ease = [&] { return encode_posture(two_handed_linkage(), standing_at_ease(body_)); };
+  const auto at_ease = [&] { return body_coordinates(standing_at_ease(body_), task_.hands); };
   if (act.stage->phase == Phase::reach) {
     const Eigen::VectorXd gap = at_ease() - act.curves_from.col(0);
     act.curves_from.colwise() += gap;
@@ -132,7 +116,7 @@ double Performance::opening_of(const Act& act) const {
     const double at = act.stage->phase == Phase::return_ ? t : 1.0 - t;
     const auto first = static_cast<double>(act.stage->first), last = static_cast<double>(act.stage->last);
     const double moment = first + at * (last - first);
-    const Anchors reached = anchors(empty_grips(open, at));
+    const Anchors reached = anchors(moment, empty_grips(open, at));
     HoldReport report;
     (void)holder_.hold(decoded(moment, reached), reached, load(moment, object(moment)), report);
     if (report.shortfall_m > 0.0) return 0.0;
@@ -169,33 +153,37 @@ BoxPose Performance::object(double moment) const {
 Performance::Turning Performance::turning_of(const Act& act) const {
   const Vec3 up(0.0, 0.0, task_.object.handle_height_m);
   const auto against_person = [&](const BoxPose& pose) {
-    return pose.yaw_rad - facing_yaw(between_ankles_, pose.position + up);
+    return pose.yaw_rad - facing_yaw(between_ankles_, pose.position + up, task_.hands);
   };
   Turning out;
   out.first = against_person(act.from);
   out.more = std::remainder(against_person(act.to) - out.first, 2.0 * kPi);
+  if (task_.hands != Hands::both) return out;
   out.recorded = heading(separation_at(act.blend->whole, 0.0));
   out.recorded_more = std::remainder(heading(separation_at(act.blend->whole, 1.0)) - out.recorded, 2.0 * kPi);
   return out;
 }
 
 /// The box turns with the person who carries it, from its turn at the one place to its turn at the other, and as much
-/// more as recorded hands have turned on their way.
+/// more as recorded hands, if there were two, have turned on their way.
 BoxPose Performance::carried_object(const Act& act, double t) const {
   const double share = progress(act.way.way, t);
   const Vec3 &from = act.from.position, &to = act.to.position;
   const Vec3 learned = act.shape.is_straight() ? point_at(act.way.way, from, to, t, share) : point_of(act, from, to, t);
   const Vec3 position = learned + Vec3(0, 0, act.clearance.rise_m(t));
   const Turning& turning = act.turning;
-  const double recorded = heading(separation_at(act.blend->whole, t)) - turning.recorded;
+  const bool is_known = task_.hands == Hands::both;
+  const double recorded = is_known ? heading(separation_at(act.blend->whole, t)) - turning.recorded : 0.0;
   const double turn = std::remainder(recorded - share * turning.recorded_more, 2.0 * kPi);
-  const double facing = facing_yaw(between_ankles_, position + Vec3(0.0, 0.0, task_.object.handle_height_m));
+  const Vec3 hold = position + Vec3(0.0, 0.0, task_.object.handle_height_m);
+  const double facing = facing_yaw(between_ankles_, hold, task_.hands);
   return {position,
           facing + turning.first + share * turning.more + std::clamp(turn, -kMostBoxTurn_rad, kMostBoxTurn_rad)};
 }
 
-/// Half the way between the hands as recorded, on this body and turned to where it holds.
+/// Half the way between the hands as recorded, on this body and turned to where it holds; nothing for one hand.
 Vec3 Performance::recorded_half(const Act& act, double t, const Vec3& hold) const {
+  if (task_.hands != Hands::both) return Vec3(0.0);
   return turned(body_.stature_m() * separation_at(act.blend->whole, t), facing_yaw(between_ankles_, hold));
 }
 
@@ -216,7 +204,7 @@ Grips Performance::grips(double moment, const BoxPose& object) const {
   const Act& act = hands_act(moment);
   if (!is_loaded(act.stage->phase)) return empty_grips(act, time_in(act, moment));
   Box held = task_.object;
-  if (&act == &acts_.back()) {
+  if (&act == &acts_.back() && task_.hands == Hands::both) {
     const double share = eased(act.stage->body_last, static_cast<double>(plan_.end), moment);
     held.grip_distance_m += 2.0 * last_opening_m_ * share;
   }
@@ -236,7 +224,7 @@ Performance::Tracks Performance::tracks() const {
     const double moment = static_cast<double>(i) * spacing_s * frame_rate_;
     const double held = is_loaded(acts_.back().stage->phase) ? std::min(moment, acts_.back().stage->body_last) : moment;
     const BoxPose box = object(moment);
-    ends.push_back(anchors(grips(held, box)));
+    ends.push_back(anchors(moment, grips(held, box)));
     learned.push_back(decoded(moment, ends.back()));
     stances.push_back(holder_.settle(learned.back(), ends.back(), load(moment, box)));
   }
@@ -260,24 +248,33 @@ Performance::Tracks Performance::tracks() const {
 
 Posture Performance::posture(double moment, const BoxPose& object, const Tracks& tracks, HoldReport& report) const {
   const double time_s = moment / frame_rate_;
-  return holder_.hold(tracks.learned.at(time_s), tracks.stance.at(time_s), anchors(grips(moment, object)),
+  return holder_.hold(tracks.learned.at(time_s), tracks.stance.at(time_s), anchors(moment, grips(moment, object)),
                       load(moment, object), report);
 }
 
 HoldReport Performance::report_at(double moment) const {
-  const Anchors at = anchors(grips(moment));
+  const Anchors at = anchors(moment, grips(moment));
   HoldReport report;
   (void)holder_.hold(decoded(moment, at), at, load(moment, object(moment)), report);
   return report;
 }
 
-Anchors Performance::anchors(const Grips& grips) const {
+Anchors Performance::anchors(double moment, const Grips& grips) const {
   Anchors out = stand_;
   out.grip = grips;
+  out.hands = task_.hands;
+  if (out.hands == Hands::both) return out;
+  const Eigen::Vector3d hang = coordinates(moment).tail<3>();
+  out.hang = hang_on(body_, out, {hang[0], hang[1], hang[2]});
   return out;
 }
 
 Decoded Performance::decoded(double moment, const Anchors& anchors) const {
+  return linkage_.decode(coordinates(moment).head(posture_rows()), anchors);
+}
+
+/// Those of body_curves at a moment.
+Eigen::VectorXd Performance::coordinates(double moment) const {
   const Act& act = body_act(moment);
   const double t = posture_time(*act.stage, moment), share = smooth(t);
   const LocalBasis local = bspline_local(t);
@@ -287,7 +284,7 @@ Decoded Performance::decoded(double moment, const Anchors& anchors) const {
     coordinates += weight * (1.0 - share) * act.curves_from.col(local.first + i) +
                    weight * share * act.curves_to.col(local.first + i);
   }
-  return linkage_.decode(coordinates, anchors);
+  return coordinates;
 }
 
 Load Performance::load(double moment, const BoxPose& object) const {

@@ -162,10 +162,11 @@ std::optional<double> given_seconds(Phase phase, const PredictOptions& options) 
 }
 
 /// What the corpus says of one stage; what is outside the data is added to the motion.
-LearnedStage learned_for(const Corpus& corpus, const MotionTable& table, const Stage& stage, const HandEnds& hands,
-                         const Subject& subject, const PredictOptions& options, Motion& motion) {
-  const Query query{stage.phase, hold_point(hands.first), hold_point(hands.last), subject,
-                    given_seconds(stage.phase, options)};
+LearnedStage learned_for(const Corpus& corpus, const MotionTable& table, const Stage& stage, const Task& task,
+                         const HandEnds& hands, const Subject& subject, const PredictOptions& options, Motion& motion) {
+  const Query query{
+      stage.phase, hold_point(hands.first), hold_point(hands.last), subject, given_seconds(stage.phase, options),
+      task.hands};
   LearnedStage learned =
       options.motion ? retargeted_stage(corpus, table, query, *options.motion)
                      : learn_stage(corpus, table, query, options.scheme, options.variation, motion.neighbours.size());
@@ -277,7 +278,7 @@ Motion predict(const Corpus& corpus, const Subject& subject, const Task& task, c
   for (const Stage& stage : plan_phases(options.phases, seconds, options.frame_rate).stages) {
     const std::size_t number = acting.blends.size();
     const HandEnds hands = hand_ends(stage, task, body);
-    LearnedStage learned = learned_for(corpus, *table, stage, hands, subject, options, motion);
+    LearnedStage learned = learned_for(corpus, *table, stage, task, hands, subject, options, motion);
     acting.ways.push_back(way_for(number, stage, learned, hands, options));
     motion.ways.push_back(acting.ways.back().form);
     seconds[number] = seconds_of(stage.phase, learned.blend, options);

@@ -3,6 +3,7 @@
 
 #include "reachcast/curves/bspline.hpp"
 #include "reachcast/motion/encode.hpp"
+#include "reachcast/posture/free_arm.hpp"
 
 namespace reachcast {
 namespace {
@@ -50,20 +51,22 @@ Replay::Replay(const MotionSummary& motion)
     : home_(motion.home),
       target_(motion.target),
       half_grip_(0.5 * motion.grip_distance_m, 0.0, 0.0),
-      anchors_(anchors_of(Body::from_stature(motion.subject.stature_m, motion.subject.sex).posture())),
-      linkage_(two_handed_linkage(), Body::from_stature(motion.subject.stature_m, motion.subject.sex)),
-      holder_(two_handed_linkage(), Body::from_stature(motion.subject.stature_m, motion.subject.sex),
-              usual_mass_kg(motion.subject.stature_m)) {}
+      body_(Body::from_stature(motion.subject.stature_m, motion.subject.sex)),
+      anchors_(anchors_of(body_.posture(), motion.hands)),
+      linkage_(two_handed_linkage(), body_),
+      holder_(two_handed_linkage(), body_, usual_mass_kg(motion.subject.stature_m)) {
+  if (motion.hands != Hands::both) half_grip_ = Vec3(0.0);
+}
 
 bool Replay::perform(const MotionCode& code, PathForm form, ReplayPostures& postures) const {
   const Coordinates coordinates = curves_of(code).transpose().lazyProduct(basis().whole);
-  return perform(way_of(code, form), coordinates, postures);
+  return perform(code, form, coordinates, postures);
 }
 
 bool Replay::perform(const Blend& blend, PathForm form, ReplayPostures& postures) const {
   Coordinates coordinates = curves_of(blend.from).transpose().lazyProduct(basis().from);
   coordinates += curves_of(blend.to).transpose().lazyProduct(basis().to);
-  return perform(way_of(blend.whole, form), coordinates, postures);
+  return perform(blend.whole, form, coordinates, postures);
 }
 
 bool Replay::perform(const MotionCode& code, PathForm form, std::span<const double> times,
@@ -71,22 +74,29 @@ bool Replay::perform(const MotionCode& code, PathForm form, std::span<const doub
   const EndpointWay way = way_of(code, form);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const Eigen::VectorXd coordinates = curves_of(code).transpose() * bspline_row(times[i]).transpose();
-    if (!hold_at(way, coordinates, times[i], postures[i])) return false;
+    if (!hold_at(code, way, coordinates, times[i], postures[i])) return false;
   }
   return true;
 }
 
-bool Replay::perform(const EndpointWay& way, const Coordinates& coordinates, ReplayPostures& postures) const {
+bool Replay::perform(const MotionCode& code, PathForm form, const Coordinates& coordinates,
+                     ReplayPostures& postures) const {
+  const EndpointWay way = way_of(code, form);
   for (int i = 0; i < kReplayTimes; ++i) {
-    if (!hold_at(way, coordinates.col(i), time_of(i), postures[static_cast<std::size_t>(i)])) return false;
+    if (!hold_at(code, way, coordinates.col(i), time_of(i), postures[static_cast<std::size_t>(i)])) return false;
   }
   return true;
 }
 
-bool Replay::hold_at(const EndpointWay& way, const Eigen::VectorXd& coordinates, double t, Posture& posture) const {
+bool Replay::hold_at(const MotionCode& code, const EndpointWay& way, const Eigen::VectorXd& coordinates, double t,
+                     Posture& posture) const {
   Anchors anchors = anchors_;
   const Vec3 hold = point_at(way, home_, target_, t);
   anchors.grip = {hold - half_grip_, hold + half_grip_};
+  if (anchors.hands != Hands::both) {
+    const Eigen::Vector3d hang = hang_curves(code) * bspline_row(t).transpose();
+    anchors.hang = hang_on(body_, anchors, {hang[0], hang[1], hang[2]});
+  }
   HoldReport report;
   posture = holder_.hold(linkage_.decode(coordinates, anchors), anchors, {hold, 0.0}, report);
   return report.shortfall_m == 0.0;

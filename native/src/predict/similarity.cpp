@@ -26,6 +26,11 @@ double or_one(double spread) {
   return spread > kNoSpread ? spread : 1.0;
 }
 
+/// What is added to a phase's name when not both hands work.
+std::string with_hands(Hands hands) {
+  return hands == Hands::both ? "" : " with the " + std::string(hands_name(hands)) + " hand";
+}
+
 /// How many of the values are nearer to `wanted` than `away`. They fall towards it from below and rise from above.
 std::size_t count_nearer(const std::vector<double>& sorted, double wanted, double away) {
   const auto middle = std::lower_bound(sorted.begin(), sorted.end(), wanted);
@@ -129,14 +134,14 @@ struct Search::Comparison {
 };
 
 Search::Search(const MotionTable& table, const Query& query, std::vector<std::uint32_t> left_out)
-    : columns_(table.of(query.phase)),
+    : columns_(table.of(query.phase, query.hands)),
       query_(query),
       wanted_(traits_of(query.subject, query.duration_s.value_or(kMissing))),
       left_out_(std::move(left_out)) {
   if (columns_.size() == left_out_.size()) {
     throw std::invalid_argument("the corpus holds " + std::to_string(table.motions().size()) +
                                 " motions and none of phase " + std::string(phase_name(query.phase)) +
-                                (columns_.size() > 0 ? " that is not left out" : ""));
+                                with_hands(query.hands) + (columns_.size() > 0 ? " that is not left out" : ""));
   }
   if (left_out_.empty()) return;
   is_left_out_.resize(columns_.size(), false);
@@ -169,7 +174,8 @@ Search::Comparison Search::comparison(const Scheme& scheme, End end) {
   }
   if (count(scheme.mirrored) == 0) {
     throw std::invalid_argument("the corpus holds only mirror images of phase " +
-                                std::string(phase_name(query_.phase)) + " and the scheme takes none");
+                                std::string(phase_name(query_.phase)) + with_hands(query_.hands) +
+                                " and the scheme takes none");
   }
   const Pool &pool = columns_.pool(scheme.mirrored), &out = missing(scheme.mirrored);
   const EndWeights weights = weights_of(end);

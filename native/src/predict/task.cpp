@@ -33,6 +33,12 @@ Vec3 grip_of(const Box& box, const BoxPose& pose, bool left) {
   return pose.position + Vec3(half * std::cos(pose.yaw_rad), half * std::sin(pose.yaw_rad), box.handle_height_m);
 }
 
+Box held_by(const Box& box, Hands hands) {
+  Box held = box;
+  if (hands != Hands::both) held.grip_distance_m = 0.0;
+  return held;
+}
+
 void check(const Task& task) {
   require_place("home", task.home);
   require_place("target", task.target);

@@ -21,6 +21,7 @@ struct MotionSummary {
   std::int64_t subject_id = 0;  ///< equal for motions whose Subject has the same four values
   Subject subject;
   Phase phase = Phase::transfer;
+  Hands hands = Hands::both;
   std::string origin;
   bool is_mirrored = false;
   double duration_s = 0.0;
@@ -63,7 +64,7 @@ struct Pool {
   [[nodiscard]] const std::vector<double>& by(Trait trait) const { return sorted[static_cast<std::size_t>(trait)]; }
 };
 
-/// The motions of one phase, in id order.
+/// The motions of one phase with the same hands at work, in id order.
 struct PhaseColumns {
   std::vector<std::uint32_t> rows;  ///< into MotionTable::motions
   std::vector<Vec3> home, target;
@@ -83,12 +84,12 @@ class MotionTable {
   explicit MotionTable(std::vector<MotionSummary> motions);
 
   [[nodiscard]] const std::vector<MotionSummary>& motions() const { return motions_; }
-  [[nodiscard]] const PhaseColumns& of(Phase phase) const;  ///< from any thread
+  [[nodiscard]] const PhaseColumns& of(Phase phase, Hands hands = Hands::both) const;  ///< from any thread
 
  private:
   std::vector<MotionSummary> motions_;
-  mutable std::array<PhaseColumns, kPhaseCount> phases_;
-  mutable std::array<std::once_flag, kPhaseCount> made_;
+  mutable std::array<PhaseColumns, kPhaseCount * kHandsCount> phases_;
+  mutable std::array<std::once_flag, kPhaseCount * kHandsCount> made_;
 };
 
 }  // namespace reachcast

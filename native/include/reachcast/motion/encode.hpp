@@ -28,8 +28,15 @@ void set_curve(MotionCode& code, const AxisCurve& curve);
 
 /// Half the way from the left grip to the right one at scaled time t, in statures, as seen by a person who faces the
 /// hold point (facing_yaw). With the path of the hold point between them it is the path of either hand; on a box that
-/// both hold it is how the box turns.
+/// both hold it is how the box turns. Only where both hands work.
 [[nodiscard]] Vec3 separation_at(const MotionCode& code, double t);
+
+/// Where one hand works: control points of how the other arm hangs (relative_hang), a row for each axis. They stand in
+/// the place of the way between the hands.
+using HangCurves = Eigen::Matrix<double, 3, kBasisCount>;
+[[nodiscard]] HangCurves hang_curves(const MotionCode& code);
+/// Hanging still.
+void set_hang(MotionCode& code, const Vec3& relative_hang);
 
 /// Control points of the posture coordinates (two_handed_linkage): a column for each of the eight B-splines.
 using PostureCurves = Eigen::Matrix<double, Eigen::Dynamic, kBasisCount>;

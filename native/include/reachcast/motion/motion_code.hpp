@@ -14,12 +14,13 @@ namespace reachcast {
 struct MotionCode {
   Subject subject;
   Phase phase = Phase::transfer;
+  Hands hands = Hands::both;
   std::string origin;
   bool is_mirrored = false;  ///< the mirror image of the reach named by `origin`
   double duration_s = 0.0;
   Vec3 home{0.0};
   Vec3 target{0.0};
-  double grip_distance_m = 0.0;  ///< between the grips at the start
+  double grip_distance_m = 0.0;  ///< between the grips at the start; 0 for one hand
   Eigen::VectorXd coefficients;  ///< length code_length(), layout in encode.cpp
 };
 

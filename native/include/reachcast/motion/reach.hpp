@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "reachcast/body/body.hpp"
+#include "reachcast/body/hands.hpp"
 #include "reachcast/body/joints.hpp"
 #include "reachcast/body/subject.hpp"
 #include "reachcast/conventions.hpp"
@@ -32,13 +33,14 @@ inline constexpr std::size_t kPhaseCount = 4;
 struct Reach {
   Subject subject;
   Phase phase = Phase::transfer;
+  Hands hands = Hands::both;
   std::string origin;                       ///< file and frames, e.g. "omomo/sub8_largebox_025.csv:22-50"
   double duration_s = 0.0;                  ///< > 0, first to last posture
   std::vector<Posture> postures;            ///< body frame, evenly spaced in time, at least 4
   std::array<bool, kJointCount> derived{};  ///< joints that the recording lacked
 
   [[nodiscard]] std::size_t frames() const { return postures.size(); }
-  /// Midpoint of the two grips at a frame: where the object is held.
+  /// Where the object is held at a frame: midpoint of the two grips, or the grip of the one hand that works.
   [[nodiscard]] Vec3 hold_point(std::size_t frame) const;
 };
 

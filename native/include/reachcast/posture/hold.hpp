@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Both hands on the object, both feet flat, the weight over them: the correction after decoding (the 2004 paper names
-/// the needs on p. 551 and leaves them open).
+/// Working hands on the object, both feet flat, the weight over them: the correction after decoding (the 2004 paper
+/// names the needs on p. 551 and leaves them open).
 ///
-/// The trunk (pelvis, chest, shoulders, head) is moved as one piece, by a shift and a small turn, to where all four
-/// limbs reach their ankles and wrists and the weight is over the feet; where the two disagree the limbs win. Then
+/// The trunk (pelvis, chest, shoulders, head) is moved as one piece, by a shift and a small turn, to where all
+/// limbs reach their ankles and wrists and the weight is over the feet; where the two disagree the limbs win. A free
+/// arm hangs from wherever its shoulder comes to be and has no say in it. Then
 /// the limbs are spanned in their planes between trunk and anchors; a hand that would fold back on its forearm gives
 /// way. To settle the trunk and to hold on are two steps, so that a motion can smooth the first over time.
 #pragma once
@@ -47,7 +48,7 @@ class Holder {
   /// what smoothing over time has taken away from a settled one.
   [[nodiscard]] Stance completed(const Decoded& decoded, const Stance& stance, const Anchors& anchors) const;
 
-  /// The posture so corrected, with balls, ankles and grips exactly at their anchors; what the stance leaves
+  /// The posture so corrected, with balls, ankles and working grips exactly at their anchors; what the stance leaves
   /// out of reach is made up by a last move of the trunk. Where report.shortfall_m > 0 the limbs stop short of their
   /// anchors. Links keep their lengths in either case.
   [[nodiscard]] Posture hold(const Decoded& decoded, const Stance& stance, const Anchors& anchors, const Load& load,
@@ -60,14 +61,16 @@ class Holder {
   }
 
  private:
-  using Wrists = std::array<Vec3, 2>;  ///< from grip to wrist, left and right
+  using Wrists = std::array<Vec3, 2>;            ///< from grip to wrist, left and right
+  using Pulling = std::array<bool, kLimbCount>;  ///< which limbs pull their roots
 
   [[nodiscard]] Wrists limited_wrists(const Decoded& decoded, const Corners& roots, const Anchors& anchors) const;
   [[nodiscard]] Posture spanned(const Decoded& decoded, const MovedTrunk& trunk, const Wrists& wrists,
                                 const Anchors& anchors) const;
-  void bring_within_reach(MovedTrunk& trunk, const Corners& ends, double margin_m) const;
-  void measure_shortfall(Corners roots, const Corners& ends, HoldReport& report) const;
-  double pulled_roots(const Corners& roots, const Corners& ends, std::size_t count, double margin_m,
+  [[nodiscard]] Corners limb_ends(const Wrists& wrists, const Corners& roots, const Anchors& anchors) const;
+  void bring_within_reach(MovedTrunk& trunk, const Wrists& wrists, const Anchors& anchors, double margin_m) const;
+  void measure_shortfall(Corners roots, const Corners& ends, const Pulling& pulling, HoldReport& report) const;
+  double pulled_roots(const Corners& roots, const Corners& ends, const Pulling& pulling, double margin_m,
                       Corners& wanted) const;
 
   std::array<LimbSpec, kLimbCount> limbs_;

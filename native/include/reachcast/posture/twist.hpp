@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reachcast/body/body.hpp"
+#include "reachcast/body/hands.hpp"
 
 namespace reachcast {
 
@@ -30,17 +31,18 @@ class Yaw {
 }
 
 /// Turn about the vertical, radians, from facing forward (y) to facing the hold point, seen from a little behind
-/// the ankles so that it is defined and steady for everything that hands can hold in front of the body.
-[[nodiscard]] double facing_yaw(const Vec3& between_ankles, const Vec3& hold_point);
+/// the ankles so that it is defined and steady for everything that hands can hold in front of the body. One hand is
+/// seen from far behind the place where it hangs: the trunk turns little with it until it reaches out.
+[[nodiscard]] double facing_yaw(const Vec3& between_ankles, const Vec3& hold_point, Hands hands = Hands::both);
 [[nodiscard]] double facing_yaw(const Anchors& anchors);
 
 /// The same anchors with the grips turned about the vertical line midway between the ankles.
 [[nodiscard]] Anchors with_grips_turned(const Anchors& anchors, double yaw_rad);
 
 /// The posture with its hands turned by `yaw_rad` about that line, the chest by four fifths of it, the pelvis by two,
-/// the feet not, and the limbs spanned again in their turned planes. Twisting back undoes it. Every link keeps its
-/// length; a limb that cannot span stops short and its hand or foot goes with it.
-[[nodiscard]] Posture twisted(const Posture& posture, double yaw_rad);
+/// the feet not, and the limbs spanned again in their turned planes; a free arm turns about its shoulder. Twisting back
+/// undoes it. Every link keeps its length; a limb that cannot span stops short and its hand or foot goes with it.
+[[nodiscard]] Posture twisted(const Posture& posture, double yaw_rad, Hands hands = Hands::both);
 
 /// Only its trunk: hips, l5s1, chest, shoulders and head. The feet give the line; other joints stay.
 [[nodiscard]] Posture turned_trunk(const Posture& posture, double yaw_rad);

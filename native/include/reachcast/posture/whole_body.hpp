@@ -6,6 +6,7 @@
 #include <array>
 
 #include "reachcast/body/body.hpp"
+#include "reachcast/body/hands.hpp"
 #include "reachcast/posture/limb.hpp"
 #include "reachcast/posture/linkage.hpp"
 
@@ -13,17 +14,23 @@ namespace reachcast {
 
 /// Where the endpoints of a posture are, body frame, metres.
 struct Anchors {
-  std::array<Vec3, 2> ball, ankle, grip;  ///< left, right
+  std::array<Vec3, 2> ball, ankle, grip;  ///< left, right; the grip of a free hand counts for nothing
+  Hands hands = Hands::both;              ///< which grips must be where they are said to be
+  Vec3 hang{0.0};                         ///< of a free hand: from its own shoulder to its grip
 };
-[[nodiscard]] Anchors anchors_of(const Posture& posture);
+[[nodiscard]] Anchors anchors_of(const Posture& posture, Hands hands = Hands::both);
+/// Where the object is held: the working grip, or midway between both.
+[[nodiscard]] Vec3 hold_point(const Anchors& anchors);
 [[nodiscard]] Anchors mirrored(const Anchors& anchors);
 
 /// Number of coordinates of a posture under `linkage`.
 [[nodiscard]] Eigen::Index posture_coordinate_count(const Linkage& linkage);
 
 /// Coordinates of a posture of anyone, untwisted (twist.hpp) to face its hold point: link lengths are those of the
-/// posture itself. Logits are clamped to +-5, so that one recorded extreme does not rule a mean.
-[[nodiscard]] Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded);
+/// posture itself. Logits are clamped to +-5, so that one recorded extreme does not rule a mean. The primary chain that
+/// ends in a free hand is kept and means nothing.
+[[nodiscard]] Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded,
+                                             Hands hands = Hands::both);
 
 /// A posture before its limbs are spanned between trunk and anchors, which is the work of hold.hpp.
 struct Decoded {
@@ -37,9 +44,10 @@ class BodyLinkage {
  public:
   BodyLinkage(const Linkage& linkage, const Body& body);
 
-  /// The trunk as its coordinates have it between left ball and right grip, with every segment's length. Where the
-  /// primary chain cannot span these two, the grip is taken at the nearest point that it can reach. Never throws for
-  /// finite input.
+  /// The trunk as its coordinates have it between left ball and right grip, and between right ball and left grip in a
+  /// mirror, with every segment's length: the mean of the two, or with one working hand the one that ends in it. Where
+  /// the primary chain cannot span, the grip is taken at the nearest point that it can reach. Never throws for finite
+  /// input.
   [[nodiscard]] Decoded decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted) const;
 
  private:
@@ -56,8 +64,9 @@ class BodyLinkage {
   };
   [[nodiscard]] Side side_of(const Body& body) const;
   [[nodiscard]] Trunk trunk_of(const Side& side, const double* stored, const Anchors& anchors) const;
+  [[nodiscard]] Trunk trunk_between(const double* stored, const Anchors& anchors) const;
   /// Pelvis, chest, and what points away from them.
-  void place_trunk(const Trunk& trunk, const double* pointers, Posture& posture) const;
+  void place_trunk(const Trunk& trunk, const double* pointers, const Mat3& object, Posture& posture) const;
 
   Linkage linkage_;
   Body body_;

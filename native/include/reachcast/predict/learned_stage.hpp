@@ -22,14 +22,16 @@ inline constexpr int kVaryingMotions = 20;  ///< the nearest, whose covariance i
 
 struct LearnedStage {
   Blend blend;
-  /// Where the phase was not recorded, the one whose postures serve it. A path of the hands for it is then not known.
+  /// Where the phase was not recorded, or not with these hands, the one whose postures serve it. A path of the hands
+  /// for it is then not known.
   std::optional<Phase> borrowed;
   std::vector<std::string> outside;  ///< why the query lies outside the corpus; empty when it lies inside
 };
 
 /// The neighbours of a stage, averaged. Where nobody was recorded in its phase, postures are taken from the opposite
 /// phase played backwards, else from the other phase of the same direction, else from its opposite: the hands are at
-/// the object at the same end. `outside` says so.
+/// the object at the same end. Where nobody was recorded with the one hand that works, they are taken from both hands
+/// in the same way. `outside` says so.
 /// draw: number of the draw of the variation, if any: other draws of one seed are independent.
 /// Throws std::invalid_argument as Search does and for an empty corpus.
 [[nodiscard]] LearnedStage learn_stage(const Corpus& corpus, const MotionTable& table, const Query& query,

@@ -24,8 +24,9 @@ struct Neighbour {
 /// Says of a motion that it must not take part.
 using LeftOut = std::function<bool(const MotionSummary&)>;
 
-/// Positions of such motions in the columns of the phase, rising.
-[[nodiscard]] std::vector<std::uint32_t> positions_of(const MotionTable& table, Phase phase, const LeftOut& left_out);
+/// Positions of such motions in the columns that the query looks at, rising.
+[[nodiscard]] std::vector<std::uint32_t> positions_of(const MotionTable& table, const Query& query,
+                                                      const LeftOut& left_out);
 
 [[nodiscard]] Neighbour named(const MotionTable& table, const Query& query, const Share& share);
 

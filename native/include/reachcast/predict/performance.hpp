@@ -20,7 +20,7 @@
 
 namespace reachcast {
 
-/// Centres of both grips, left and right.
+/// Centres of both grips, left and right. Where one hand works both are its grip: the other has none on anything.
 using Grips = std::array<Vec3, 2>;
 
 [[nodiscard]] Vec3 hold_point(const Grips& grips);
@@ -28,7 +28,8 @@ using Grips = std::array<Vec3, 2>;
 /// The hands' grips on the object where it stands.
 [[nodiscard]] Grips grips_on(const Task& task, Place place);
 
-/// Hands at the start and the end of a stage. Empty ones come from, and go back to, where they hang (stand.hpp).
+/// Working hands at the start and the end of a stage. Empty ones come from, and go back to, where they hang
+/// (stand.hpp).
 struct HandEnds {
   Grips first, last;
 };
@@ -93,7 +94,7 @@ class Performance {
     bool is_bent = false;        ///< in either manner
     Vec3 half_first, half_last;  ///< of an empty stage: what its ends lack of half the recorded way between the hands
     double opening_m = 0.0;      ///< how far empty hands stay clear of the object's sides
-    PostureCurves curves_from, curves_to;  ///< of the blend, shifted so that stages meet
+    PostureCurves curves_from, curves_to;  ///< body_curves of the blend, shifted so that stages meet
   };
 
   [[nodiscard]] Act act_of(const Stage& stage, const Blend& blend, const StageWay& way) const;
@@ -114,13 +115,14 @@ class Performance {
   [[nodiscard]] Grips empty_grips(const Act& act, double t) const;
   [[nodiscard]] Vec3 recorded_half(const Act& act, double t, const Vec3& hold) const;
   [[nodiscard]] Grips grips(double moment, const BoxPose& object) const;
-  [[nodiscard]] Anchors anchors(const Grips& grips) const;
+  [[nodiscard]] Anchors anchors(double moment, const Grips& grips) const;
+  [[nodiscard]] Eigen::VectorXd coordinates(double moment) const;
   [[nodiscard]] Decoded decoded(double moment, const Anchors& anchors) const;
   [[nodiscard]] Load load(double moment, const BoxPose& object) const;
   [[nodiscard]] BoxPose place_pose(Place place) const;
 
   const Plan& plan_;
-  const Task& task_;
+  Task task_;  ///< of one hand: with the object as it holds it
   const Body& body_;
   double frame_rate_;
   Anchors stand_;

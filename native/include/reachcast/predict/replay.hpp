@@ -19,7 +19,8 @@ using ReplayPostures = std::array<Posture, kReplayTimes>;
 
 /// The stage of one motion: published proportions of its subject's stature ("link lengths predicted using the height of
 /// the actual subject and not their actual link lengths", Faraway 2004, p. 549), its home and target, its hands'
-/// distance. A level pair of grips goes along the path of a code, in either form; the body follows.
+/// distance, or its one hand. A level pair of grips, or that hand's, goes along the path of a code, in either form; the
+/// body follows.
 class Replay {
  public:
   /// Nothing for a stature without published proportions.
@@ -35,12 +36,15 @@ class Replay {
  private:
   using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, kReplayTimes>;
   explicit Replay(const MotionSummary& motion);
-  [[nodiscard]] bool perform(const EndpointWay& way, const Coordinates& coordinates, ReplayPostures& postures) const;
+  /// Along the way of `code`, and with its free arm if there is one.
+  [[nodiscard]] bool perform(const MotionCode& code, PathForm form, const Coordinates& coordinates,
+                             ReplayPostures& postures) const;
   /// One posture at scaled time t; false where the body cannot hold the box.
-  [[nodiscard]] bool hold_at(const EndpointWay& way, const Eigen::VectorXd& coordinates, double t,
-                             Posture& posture) const;
+  [[nodiscard]] bool hold_at(const MotionCode& code, const EndpointWay& way, const Eigen::VectorXd& coordinates,
+                             double t, Posture& posture) const;
 
   Vec3 home_, target_, half_grip_;
+  Body body_;
   Anchors anchors_;
   BodyLinkage linkage_;
   Holder holder_;

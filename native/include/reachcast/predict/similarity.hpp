@@ -19,7 +19,8 @@ struct Query {
   Vec3 home{0.0};    ///< hold point at the start, body frame
   Vec3 target{0.0};  ///< hold point at the end, body frame
   Subject subject;
-  std::optional<double> duration_s;  ///< only schemes that compare durations need it
+  std::optional<double> duration_s{};  ///< only schemes that compare durations need it
+  Hands hands = Hands::both;           ///< only motions of these hands are looked at
 };
 
 /// A motion and its share of the prediction.
