@@ -53,13 +53,15 @@ class REACHCAST_PT_lift(Tab, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.reachcast
         column = self.layout.column(align=True)
-        for words, name in (("Rig", "rig"), ("does", "errand"), ("with", "box"), ("from", "home"), ("to", "shelf"),
-                            ("coming", "approach"), ("past", "obstacles"), ("as in", "corpus")):
+        for words, name in (("Rig", "rig"), ("does", "errand"), ("with", "working_hands"), ("the box", "box"),
+                            ("from", "home"), ("to", "shelf"), ("coming", "approach"), ("past", "obstacles"),
+                            ("as in", "corpus")):
             row = _sentence_part(column, settings, words, name)
             if name == "corpus":
                 row.menu(REACHCAST_MT_corpora.__name__, text="", icon="DOWNARROW_HLT")
             if name == "box" and settings.box:
                 _sentence_part(column, settings.box, "of", "reachcast_box_mass")
+            if name == "box" and settings.box and settings.working_hands == "BOTH":
                 split = column.split(factor=_LABELS)
                 split.label(text="held at")
                 row = split.row(align=True)

@@ -71,6 +71,11 @@ class ReachcastSettings(SubjectSettings, bpy.types.PropertyGroup):
                                                             "go back to the sides"),
                ("FETCH", "Fetch", "Empty hands reach for the box on the shelf, carry it home and go back to the sides"),
                ("THERE_AND_BACK", "There and back", "Reach, lift and return, then fetch it again")))
+    working_hands: bpy.props.EnumProperty(
+        name="Hands", default="BOTH", description="Which hands reach for the box and carry it",
+        items=(("BOTH", "Both Hands", "One on each side of the box, or at its two handles"),
+               ("RIGHT", "Right Hand", "It holds the box in its middle; the left arm hangs and swings"),
+               ("LEFT", "Left Hand", "It holds the box in its middle; the right arm hangs and swings")))
     box: bpy.props.PointerProperty(
         name="Box", type=bpy.types.Object, poll=_is_mesh,
         description="The mesh that is carried; it follows the hands while they hold it, left and right along its own x. "

@@ -17,7 +17,7 @@ from ..scene.carry import remove_holds
 from ..scene.mannequin import build_mannequin, dress_mannequin, remove_with_meshes, standing_posture
 from ..scene.prepare import Prepared, refuse_owners
 from ..scene.read_rig import read_rig
-from ..scene.read_task import BOX_MASS, BoxShape, lift_between, read_box, standing
+from ..scene.read_task import (BOX_MASS, ONE_HAND_MASS, ONE_HAND_SIZE, BoxShape, lift_between, read_box, standing)
 from ..scene.transforms import Placement, above_matrix, placement
 from .tasks import Task, Unit
 
@@ -48,6 +48,13 @@ def person_of(task: Task) -> Person:
     return (task.rig, None if task.rig else (task.stature or DEFAULT_STATURE), None if task.rig else task.sex)
 
 
+def carried_by(task: Task) -> tuple[tuple[float, ...] | str, float | None]:
+    """Size or name of what is carried, and its mass; None: what the mesh says, else 5 kg."""
+    if task.object is None and task.hands != "both":
+        return ONE_HAND_SIZE, ONE_HAND_MASS if task.load is None else task.load
+    return task.object or DEFAULT_BOX, task.load
+
+
 class Stage:
     """Rigs and boxes by task. `corpus` is an opened reachcast_core.Corpus."""
 
@@ -72,7 +79,7 @@ class Stage:
         else:
             home = standing(load.box, load.shape) if isinstance(task.object, str) else None
         lift = lift_between(skeleton, load.shape, home, self._placed(task.target, skeleton),
-                            stands=task.home is None)
+                            stands=task.home is None, hands=task.hands)
         subject = native.core().Subject(task.stature or skeleton.height, sex=task.sex, age=task.age, mass=task.mass)
         options: dict[str, object] = {"frame_rate": self.frame_rate, "phases": list(task.phases)}
         if unit.seed is not None:
@@ -119,21 +126,21 @@ class Stage:
         return worker
 
     def _load(self, task: Task) -> Load:
-        key = (person_of(task), task.object, task.load)
+        what, mass = carried_by(task)
+        key = (person_of(task), what, mass)
         if key not in self._loads:
-            if isinstance(task.object, str):
-                box = _named(task.object, "object")
+            if isinstance(what, str):
+                box = _named(what, "object")
                 shape = read_box(box)
-                if task.load is not None:
-                    shape = replace(shape, mass=task.load)
+                if mass is not None:
+                    shape = replace(shape, mass=mass)
             else:
                 if len(self._loads) >= MOST_KEPT_BOXES:
                     self._drop_loads(next(iter(self._loads))[0])
-                size = task.object or DEFAULT_BOX
-                mass = "" if task.load is None else f" {task.load:g} kg"
-                box = add_cuboid(size, f"Box {'x'.join(map('{:g}'.format, size))}{mass}")
-                if task.load is not None:
-                    box[BOX_MASS] = task.load
+                heavy = "" if mass is None else f" {mass:g} kg"
+                box = add_cuboid(what, f"Box {'x'.join(map('{:g}'.format, what))}{heavy}")
+                if mass is not None:
+                    box[BOX_MASS] = mass
                 shape = read_box(box)
             self._loads[key] = Load(box, shape, above_matrix(box))
         return self._loads[key]

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 OUTPUTS = ("action", "csv", "bvh", "gltf", "png", "mp4", "sheet")
 ENGINES = ("EEVEE", "WORKBENCH", "CYCLES")
+HANDS = ("both", "left", "right")
 PHASES = ("reach", "transfer", "return", "retrieve")
 MOST_VARIANTS = 1000
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
@@ -32,6 +33,7 @@ class Task:
     mass: float | None = None         #: of the person
     object: tuple[float, ...] | str | None = None  #: width, depth, height of a box, or a mesh of the scene
     load: float | None = None         #: mass of the object; None: what the mesh says, else 5
+    hands: str = "both"               #: or left or right: which hold the object
     phases: tuple[str, ...] = ("transfer",)
     variants: int = 0                 #: 0: the mean motion
     seed: int = 1                     #: of the first variant
@@ -173,6 +175,6 @@ def _resolution(name: str, value: object) -> tuple[int, int]:
 _COLUMNS: dict[str, Callable[[str, object], object]] = {
     "id": _identifier, "rig": _text, "stature": _number(0.5, 2.5), "sex": _one_of("female", "male"),
     "age": _number(0.0, 120.0), "mass": _number(1.0, 400.0), "home": _place, "target": _place, "object": _object,
-    "load": _number(0.0, 200.0), "phases": _words(PHASES), "variants": _whole(0, MOST_VARIANTS), "seed": _whole(0, 2 ** 31 - 1 - MOST_VARIANTS),
+    "load": _number(0.0, 200.0), "hands": _one_of(*HANDS), "phases": _words(PHASES), "variants": _whole(0, MOST_VARIANTS), "seed": _whole(0, 2 ** 31 - 1 - MOST_VARIANTS),
     "outputs": _words(OUTPUTS), "engine": _one_of(*ENGINES), "camera": _text, "resolution": _resolution,
     "frame_step": _whole(1, 100)}

@@ -67,7 +67,9 @@ def task_of(context: bpy.types.Context) -> dict[str, Any]:
             "age": settings.age or None, "mass": settings.mass or None,
             "bone_map": settings.bone_map or None, "phases": ERRANDS[settings.errand],
             "obstacles": meshes_in(settings.obstacles), "scene": context.scene}
-    if settings.handle_left and settings.handle_right:
+    if settings.working_hands != "BOTH":
+        task["hands"] = settings.working_hands.lower()
+    elif settings.handle_left and settings.handle_right:
         task["handles"] = (settings.handle_left, settings.handle_right)
     if settings.approach != "FREE":
         task["approach"] = settings.approach.lower()

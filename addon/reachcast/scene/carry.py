@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The box in the hands: a Child Of constraint, switched by keys, to an Empty that goes with both hands of a rig.
+"""The box in the hands: a Child Of constraint, switched by keys, to an Empty that goes with the hands of a rig.
 
 The Empty, the rig's hold, lies midway between the grips; its x points from the left grip to the right, its z up. While
 the constraint's influence is 1 the box's own keys say how it lies in the hold; while it is 0, where it stands in the
 world. All Actions of a rig and a box share one hold and one constraint, so that any of them can be taken up again.
+One hand has a hold of its own, which lies at its grip and does not turn: the box has keys in every frame then.
 """
 from __future__ import annotations
 
@@ -34,7 +35,7 @@ def write_box_action(prepared: Prepared, solved: Solved, rig: bpy.types.Object, 
     known; else the layer is evaluated for it.
     """
     above = above_matrix(box, layer) if above is None else above
-    ready_carrier(box, rig, prepared.skeleton)
+    ready_carrier(box, rig, prepared.skeleton, prepared.lift.hands)
     return write_action(box, name, carried_channels(box, rig, above, prepared.lift, solved, aside), first)
 
 
@@ -43,17 +44,21 @@ def carried_channels(box: bpy.types.Object, rig: bpy.types.Object, above: Array,
     """Places of `box` and influences of its carriers, as steps. above: (4, 4), `transforms.above_matrix`."""
     spans = held_spans(solved.motion)
     steps = sorted({0, *(frame for span in spans for frame in span if frame is not None)})
+    if lift.hands != "both":
+        last = len(solved.places[0]) - 1
+        steps = sorted({*steps, *(frame for start, end in spans for frame in range(start, (end or last) + 1))})
     held = np.array([any(start <= step and (end is None or step < end) for start, end in spans) for step in steps])
     half = np.diag([-1.0, -1.0, 1.0]) if lift.half_turn else np.eye(3)
     offset, turn = half @ np.array(lift.box.origin_offset), half @ np.array(lift.box.turn)
     bases, frames = (values[steps] for values in solved.places)
     origins = bases + frames @ offset + (0.0 if aside is None else aside)
     turns = frames @ turn
-    origins[held] = offset - [0.0, 0.0, lift.box.handle_height]
-    turns[held] = turn
+    hanging = offset - [0.0, 0.0, lift.box.handle_height]
+    origins[held] = hanging if lift.hands == "both" else frames[held] @ hanging
+    turns[held] = turn if lift.hands == "both" else frames[held] @ turn
     channels = box_channels(box, above, origins, turns, tuple(steps))
     for constraint in filter(is_carrier, box.constraints):
-        own = rig_of_hold(constraint.target) == rig
+        own = rig_of_hold(constraint.target) == rig and hands_of_hold(constraint.target) == lift.hands
         channels.append(Channel(f'constraints["{escape_identifier(constraint.name)}"].influence',
                                 held[:, None].astype(float) if own else np.zeros((1, 1)), "Carried",
                                 tuple(steps) if own else (0,)))
@@ -71,39 +76,52 @@ def held_spans(motion: object) -> list[tuple[int, int | None]]:
     return spans
 
 
-def ready_carrier(box: bpy.types.Object, rig: bpy.types.Object, skeleton: Skeleton) -> bpy.types.Constraint:
-    """The constraint by which `rig` carries `box`; made, like the rig's hold, when there is none yet."""
-    hold = ready_hold(rig, skeleton, box)
+def ready_carrier(box: bpy.types.Object, rig: bpy.types.Object, skeleton: Skeleton,
+                  hands: str) -> bpy.types.Constraint:
+    """The constraint by which these hands of `rig` carry `box`; made, like their hold, when there is none yet."""
+    hold = ready_hold(rig, skeleton, box, hands)
     found = next((item for item in box.constraints if is_carrier(item) and item.target == hold), None)
     if found is None:
         found = box.constraints.new("CHILD_OF")
-        found.name, found.target = f"Carried by {rig.name}", hold
+        found.name, found.target = f"Carried by {_whose(rig, hands)}", hold
         found.use_scale_x = found.use_scale_y = found.use_scale_z = False
         found.influence = 0.0
     found.inverse_matrix = Matrix()  # Blender fills it in when the target is chosen in the interface
     return found
 
 
-def ready_hold(rig: bpy.types.Object, skeleton: Skeleton, beside: bpy.types.Object) -> bpy.types.Object:
-    """The Empty midway between the grips of `rig`; a new one is linked where the object `beside` is, and hidden."""
-    hold = next((item for item in bpy.data.objects if HOLD in item and rig_of_hold(item) == rig), None)
+def ready_hold(rig: bpy.types.Object, skeleton: Skeleton, beside: bpy.types.Object, hands: str) -> bpy.types.Object:
+    """The Empty midway between the grips of `rig`, or at that of one hand; a new one is linked where the object `beside`
+    is, and hidden."""
+    hold = next((item for item in bpy.data.objects
+                 if HOLD in item and rig_of_hold(item) == rig and hands_of_hold(item) == hands), None)
     if hold is None:
-        hold = bpy.data.objects.new(f"{rig.name} Hold", None)
-        hold[HOLD] = True
+        hold = bpy.data.objects.new(f"{_whose(rig, hands)} Hold", None)
+        hold[HOLD] = hands
         hold.empty_display_size, hold.hide_viewport, hold.hide_render = _SHOWN_M, True, True
         _collection_of(beside).objects.link(hold)
-        for kind in ("COPY_LOCATION", "COPY_LOCATION", "LOCKED_TRACK"):
+        for kind in ("COPY_LOCATION", "COPY_LOCATION", "LOCKED_TRACK") if hands == "both" else ("COPY_LOCATION",):
             hold.constraints.new(kind).target = rig
-        hold.constraints[1].influence = 0.5
-        hold.constraints[2].track_axis, hold.constraints[2].lock_axis = "TRACK_X", "LOCK_Z"
-    for constraint, side in zip(hold.constraints, "LRR"):
+        if hands == "both":
+            hold.constraints[1].influence = 0.5
+            hold.constraints[2].track_axis, hold.constraints[2].lock_axis = "TRACK_X", "LOCK_Z"
+    for constraint, side in zip(hold.constraints, "LRR" if hands == "both" else hands[0].upper()):
         grip: GripPlace = skeleton.bone_map.grip(side)
         constraint.subtarget, constraint.head_tail = grip.bone, grip.along
     return hold
 
 
 def rig_of_hold(hold: bpy.types.Object | None) -> bpy.types.Object | None:
-    return hold.constraints[0].target if hold is not None and len(hold.constraints) == 3 else None
+    return hold.constraints[0].target if hold is not None and len(hold.constraints) in (1, 3) else None
+
+
+def hands_of_hold(hold: bpy.types.Object) -> str:
+    """Which hands it goes with: "both", "left" or "right"."""
+    return hold[HOLD] if isinstance(hold[HOLD], str) else "both"
+
+
+def _whose(rig: bpy.types.Object, hands: str) -> str:
+    return rig.name if hands == "both" else f"{rig.name} {hands.capitalize()}"
 
 
 def carriers_of(box: bpy.types.Object) -> list[bpy.types.Constraint]:

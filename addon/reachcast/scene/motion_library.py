@@ -57,10 +57,11 @@ def _lift_of(motion: Any, larger: float) -> Lift:
     home, target = {"transfer": (start, end), "retrieve": (end, start), "reach": (end, end),
                     "return": (start, start)}[motion.phase]
     grips = motion.grip_distance
-    if motion.phase in ("reach", "return"):  # the hands' distance at the start says nothing of the box
+    if motion.phase in ("reach", "return") or motion.hands != "both":  # the hands' distance at the start says nothing of the box
         grips = 0.4
     width = max(_LEAST_WIDTH, grips - 2.0 * _HALF_HAND)
-    return Lift(home, target, 0.0, 0.0, BoxShape(width, _DEPTH, _HEIGHT, 0.5 * _HEIGHT, grips, 1.0), False)
+    return Lift(home, target, 0.0, 0.0, BoxShape(width, _DEPTH, _HEIGHT, 0.5 * _HEIGHT, grips, 1.0), False,
+                motion.hands)
 
 
 def target_points(corpus: Any, rig: bpy.types.Object | None = None, phase: str | None = None) -> Array:

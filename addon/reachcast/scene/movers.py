@@ -11,7 +11,7 @@ from .action_writer import curves_of
 
 #: Whether a property that an F-curve animates is one of those that matter, by its data path.
 Touches = Callable[[str], bool]
-#: Custom property of the Empties that go with both hands of a rig; see carry.py.
+#: Custom property of the Empties that go with the hands of a rig: which hands; see carry.py.
 HOLD = "reachcast_hold"
 #: Custom property of predicted Actions on rigs, which names their events, and of those on the boxes that they carry.
 PREDICTED, CARRIED = "reachcast_events", "reachcast_carried_by"

@@ -27,7 +27,6 @@ from .read_task import Lift, place_of
 from .transforms import above_matrix, layer_of
 from .write_motion import rig_channels
 
-_GRIPS = [INDEX["left_grip"], INDEX["right_grip"]]
 #: A control point that differs by less has not been moved: curves are single precision.
 _MOVED_M = 1e-5
 #: Property of an Action that keeps the inner control points of a phase, each from its end, body frame.
@@ -201,9 +200,9 @@ def end_session(session: PathSession) -> None:
     session.curves.clear()
 
 
-def hold_points(solved: Solved) -> Array:
-    """(F, 3) world: the middle between the grips."""
-    return solved.joints[:, _GRIPS].mean(axis=1)
+def hold_points(solved: Solved, lift: Lift) -> Array:
+    """(F, 3) world: the middle between the grips, or the grip of the one hand that works."""
+    return solved.joints[:, [INDEX[f"{word}_grip"] for word in lift.grips()]].mean(axis=1)
 
 
 def control_of(prepared: Prepared, solved: Solved, number: int) -> Array:
@@ -212,7 +211,7 @@ def control_of(prepared: Prepared, solved: Solved, number: int) -> Array:
     if curve is not None:
         return prepared.skeleton.to_world(np.asarray(curve))
     _, first, last = solved.motion.phases[number]
-    return np.array(native.core().fit_bezier(hold_points(solved)[first:last + 1], 3))
+    return np.array(native.core().fit_bezier(hold_points(solved, prepared.lift)[first:last + 1], 3))
 
 
 def _edited(phases: Sequence[str], edited: Sequence[int] | None) -> list[int]:

@@ -71,10 +71,10 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
     home to the shelf), "return" (hands to the sides) and "retrieve" (back home), in an order that can be performed;
     the box stands where the first loaded phase takes it from. obstacles: mesh objects that the box and the hands keep
     clear of (option clearance, metres); the rig and the box are none. handles: two objects where the hands hold the
-    box. Objects are taken where they are in the scene's current frame, and the motion starts there or at start_frame.
-    Other options go to reachcast_core.predict: approach="above", "front" or "side"; variation={"seed": 1} for another
-    motion than the mean; k, scheme, duration. Everything is read and checked first: on ValueError nothing has been
-    written.
+    box. hands: "both", or "left" or "right" for one hand that holds it in its middle. Objects are taken where they are
+    in the scene's current frame, and the motion starts there or at start_frame. Other options go to
+    reachcast_core.predict: approach="above", "front" or "side"; variation={"seed": 1} for another motion than the mean;
+    k, scheme, duration. Everything is read and checked first: on ValueError nothing has been written.
     """
     scene = scene or bpy.context.scene
     prepared = prepare(rig, shelf, corpus=corpus, home=home, box=box, stature=stature, sex=sex, age=age, mass=mass,

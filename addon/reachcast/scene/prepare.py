@@ -62,7 +62,7 @@ def prepare(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: object = 
             sex: str | None = None, age: float | None = None, mass: float | None = None,
             bone_map: BoneMap | str | Path | None = None, phases: Iterable[str] = ("transfer",),
             obstacles: Iterable[bpy.types.Object] = (), scene: bpy.types.Scene | None = None,
-            handles: Sequence[bpy.types.Object] | None = None, **options: object) -> Prepared:
+            handles: Sequence[bpy.types.Object] | None = None, hands: str = "both", **options: object) -> Prepared:
     """Reads and checks what `predict_motion` is given, which says what that is. ValueError in one sentence."""
     scene = scene or bpy.context.scene
     core, layer = native.core(), layer_of(scene)
@@ -71,7 +71,7 @@ def prepare(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: object = 
     for item, what in ((rig, "rig"), (shelf, "shelf"), (home, "home"), (box, "box")):
         refuse_removed(item, what)
     skeleton = read_rig(rig, bone_map, layer)
-    lift = read_lift(skeleton, shelf, home, box, layer, handles)
+    lift = read_lift(skeleton, shelf, home, box, layer, handles, hands)
     refuse_owners(rig, skeleton, box, layer)
     subject = _subject(core, skeleton, stature, sex, age, mass)
     surfaces = read_obstacles(skeleton, [item for item in obstacles if item not in {rig, box}], layer)
@@ -135,7 +135,7 @@ def _predict(core: ModuleType, prepared: Prepared, options: Mapping[str, object]
     task = core.Task(lift.home, lift.target,
                      core.Box(box.width, box.depth, box.height, box.handle_height, mass=box.mass,
                               grip_distance=box.grip_distance),
-                     home_yaw=lift.home_yaw, target_yaw=lift.target_yaw)
+                     home_yaw=lift.home_yaw, target_yaw=lift.target_yaw, hands=lift.hands)
     body = core.Body.from_posture(skeleton.to_body(skeleton.joints), skeleton.height)
     try:
         return core.predict(prepared.corpus, prepared.subject, task, body, **options)
@@ -164,8 +164,8 @@ def _errors(skeleton: Skeleton, lift: Lift, motion: Any, reached: Array, joints:
     if landings:
         errors["landing"] = max(landings)
     held = _held_frames(motion)
-    for word, side in (("left", -0.5), ("right", 0.5)) if len(held) else ():
-        handle = origins + turns @ np.array([side * lift.box.grip_distance, 0.0, lift.box.handle_height])
+    for word, grip in lift.grips().items() if len(held) else ():
+        handle = origins + turns @ grip
         off = float(np.linalg.norm(reached[:, INDEX[f"{word}_grip"]] - handle, axis=1)[held].max())
         errors["grip"] = max(off, errors.get("grip", 0.0))
     return errors

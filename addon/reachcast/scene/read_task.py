@@ -22,6 +22,8 @@ _DEFAULT_SIZE = (0.35, 0.30, 0.25)
 _HALF_HAND = 0.02                           #: metres from a box's wall to the middle of a hand that holds it
 LEAST_WAY_M = 0.01                          #: the native module's own limit, from home to target
 _MOST_METRES = 3.0                          #: no pair of hands holds a larger box
+ONE_HAND_SIZE, ONE_HAND_MASS = (0.08, 0.08, 0.20), 1.0   #: of what one hand carries when nothing is said
+HANDS = ("both", "left", "right")           #: which hold the object
 
 
 @dataclass(frozen=True)
@@ -42,7 +44,9 @@ class BoxShape:
 
 @dataclass(frozen=True)
 class Lift:
-    """A task in the body frame. Yaws are in (-pi/2, pi/2]: a box looks the same to two hands after half a turn."""
+    """A task in the body frame. Yaws are in (-pi/2, pi/2]: a box looks the same to two hands after half a turn.
+
+    One hand holds the object in the middle between what would be the grips of two."""
 
     home: Array
     target: Array
@@ -50,45 +54,57 @@ class Lift:
     target_yaw: float
     box: BoxShape
     half_turn: bool  #: the mesh stands half a turn away from the box that the hands see
+    hands: str = "both"
+
+    def grips(self) -> dict[str, Array]:
+        """Where the hands that work hold the box, in the box's frame: "left" and "right" -> (3,) metres."""
+        apart = self.box.grip_distance if self.hands == "both" else 0.0
+        return {word: np.array([side * apart, 0.0, self.box.handle_height])
+                for word, side in (("left", -0.5), ("right", 0.5)) if self.hands in ("both", word)}
 
 
 def read_lift(skeleton: Skeleton, shelf: bpy.types.Object, home: bpy.types.Object | None,
               box: bpy.types.Object | None, layer: bpy.types.ViewLayer | None = None,
-              handles: Sequence[bpy.types.Object] | None = None) -> Lift:
+              handles: Sequence[bpy.types.Object] | None = None, hands: str = "both") -> Lift:
     """The task: the box's base goes from `home` (else from where the box stands, else from the front of the body at
     waist height) to `shelf`, as `layer` (the user's own by default) shows them. ValueError names the object, its value
     and the limit."""
+    if hands not in HANDS:
+        raise ValueError(f"The hands are {hands!r}; they must be {', '.join(HANDS[:-1])} or {HANDS[-1]}")
+    if hands != "both" and handles:
+        raise ValueError(f"Handles are for both hands; the {hands} hand alone holds the box in its middle")
     if not isinstance(shelf, bpy.types.Object):
         raise ValueError(f"The shelf must be an object (an Empty where the box is to end), not {described(shelf)}")
     if home is not None and not isinstance(home, bpy.types.Object):
         raise ValueError(f"The home must be an object (an Empty where the box starts) or None, not {described(home)}")
-    shape = read_box(box, layer, handles) if box is not None else _default_box()
+    shape = read_box(box, layer, handles) if box is not None else _default_box(hands)
     target = placement(shelf, layer)
     if home is not None:
-        return lift_between(skeleton, shape, placement(home, layer), target)
+        return lift_between(skeleton, shape, placement(home, layer), target, hands=hands)
     if box is None:
-        return lift_between(skeleton, shape, None, target)
+        return lift_between(skeleton, shape, None, target, hands=hands)
     start = standing(box, shape, layer)
     middle = start.origin + start.rotation @ np.array([*shape.middle, 0.0])
     if np.linalg.norm(middle - target.origin) < LEAST_WAY_M:
         raise ValueError(f"Box '{box.name}' already stands on '{shelf.name}'; go to a frame in which it stands where it "
                          f"is to start, or choose a home")
-    return lift_between(skeleton, shape, start, target, stands=True)
+    return lift_between(skeleton, shape, start, target, stands=True, hands=hands)
 
 
 def lift_between(skeleton: Skeleton, shape: BoxShape, home: Placement | None, target: Placement,
-                 stands: bool = False) -> Lift:
-    """The task from world placements of the middle of the box's base at home (None: in front of the body at waist
-    height, square to it) and at its end. stands: home is beneath the grips instead, as `standing` has it."""
+                 stands: bool = False, hands: str = "both") -> Lift:
+    """The task from world placements of the middle of the box's base at home (None: in front of the body, or of the
+    shoulder of the one hand, at waist height, square to it) and at its end. stands: home is beneath the grips instead,
+    as `standing` has it."""
     target_yaw, _ = _half_turns(_yaw(skeleton, target.rotation))
     end = _placed(skeleton, target.origin)
     if home is None:
-        return Lift(_in_front(skeleton, shape), end, 0.0, target_yaw, shape, False)
+        return Lift(_in_front(skeleton, shape, hands), end, 0.0, target_yaw, shape, False, hands)
     home_yaw, half_turn = _half_turns(_yaw(skeleton, home.rotation))
     start = _placed(skeleton, home.origin)
     if not stands:
         start = start - beneath_grips(home_yaw, shape, half_turn)
-    return Lift(start, end - beneath_grips(target_yaw, shape, half_turn), home_yaw, target_yaw, shape, half_turn)
+    return Lift(start, end - beneath_grips(target_yaw, shape, half_turn), home_yaw, target_yaw, shape, half_turn, hands)
 
 
 def standing(box: bpy.types.Object, shape: BoxShape, layer: bpy.types.ViewLayer | None = None) -> Placement:
@@ -200,9 +216,9 @@ def _number(item: bpy.types.Object, name: str, default: float, least: float, mos
     return float(value)
 
 
-def _default_box() -> BoxShape:
-    width, depth, height = _DEFAULT_SIZE
-    return BoxShape(width, depth, height, 0.5 * height, width + 2.0 * _HALF_HAND, DEFAULT_MASS)
+def _default_box(hands: str) -> BoxShape:
+    (width, depth, height), mass = (_DEFAULT_SIZE, DEFAULT_MASS) if hands == "both" else (ONE_HAND_SIZE, ONE_HAND_MASS)
+    return BoxShape(width, depth, height, 0.5 * height, width + 2.0 * _HALF_HAND, mass)
 
 
 def _placed(skeleton: Skeleton, place: Array) -> Array:
@@ -210,9 +226,12 @@ def _placed(skeleton: Skeleton, place: Array) -> Array:
     return np.round(skeleton.to_body(place), 7) + 0.0
 
 
-def _in_front(skeleton: Skeleton, shape: BoxShape) -> Array:
+def _in_front(skeleton: Skeleton, shape: BoxShape, hands: str) -> Array:
     """Faraway 2004, p. 546: "a position in front of the body at waist height"."""
     waist = skeleton.to_body(skeleton.joint("l5s1"))
+    if hands != "both":
+        shoulder = skeleton.to_body(skeleton.joint(f"{hands}_shoulder"))
+        return np.array([shoulder[0], waist[1] + 0.2 * skeleton.height, waist[2] - shape.handle_height])
     forward = 0.12 * skeleton.height + 0.5 * shape.depth
     return np.array([0.0, waist[1] + forward, waist[2] - shape.handle_height])
 

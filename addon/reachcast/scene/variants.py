@@ -12,6 +12,7 @@ from .ghosts import add_ghost
 from .path_session import hold_points
 from .predict_action import PredictionResult, keep_all, write_solved
 from .prepare import Prepared, Solved, prepare, solve
+from .read_task import Lift
 from .spread_tube import add_tube
 from .steps import Progress, Steps, run_to_end
 from .transforms import layer_of
@@ -82,7 +83,7 @@ def variant_steps(rig: bpy.types.Object, shelf: bpy.types.Object, *, count: int 
     mesh = None
     if tube and not is_stopped:
         more, _ = _draw(prepared, range(seed + count, seed + SPREAD_MOTIONS), amount)
-        mesh = add_tube(f"Spread of {rig.name} to {shelf.name}", _paths([solved for _, solved in drawn + more]),
+        mesh = add_tube(f"Spread of {rig.name} to {shelf.name}", _paths([solved for _, solved in drawn + more], prepared.lift),
                         collection or scene.collection).name
     return VariantsResult(tuple(results), tuple(number for number, _ in drawn), tuple(failed),
                           collection.name if collection else None, mesh)
@@ -109,7 +110,7 @@ def _draw(prepared: Prepared, seeds: range, amount: float) -> tuple[list[tuple[i
     return drawn, failed
 
 
-def _paths(drawn: list[Solved]) -> list[Array]:
+def _paths(drawn: list[Solved], lift: Lift) -> list[Array]:
     """(motions, times, 3) world for each phase that carries the box, else for each: hands at equal relative times."""
     phases = [phase for phase, _, _ in drawn[0].motion.phases]
     carrying = [number for number, phase in enumerate(phases) if phase in ("transfer", "retrieve")]
@@ -118,7 +119,7 @@ def _paths(drawn: list[Solved]) -> list[Array]:
         found = []
         for solved in drawn:
             _, first, last = solved.motion.phases[number]
-            points = hold_points(solved)[first:last + 1]
+            points = hold_points(solved, lift)[first:last + 1]
             at = np.linspace(0.0, len(points) - 1.0, SPREAD_TIMES)
             found.append(np.stack([np.interp(at, np.arange(len(points)), column) for column in points.T], axis=1))
         paths.append(np.array(found))
