@@ -83,7 +83,7 @@ MotionCode encode_reach(const Reach& reach) {
     const double t = static_cast<double>(f) / static_cast<double>(reach.frames() - 1);
     separation_basis.row(static_cast<Eigen::Index>(f)) = bspline_row(separation_time(reach.hands, t));
     coordinates.row(static_cast<Eigen::Index>(f)) =
-        encode_posture(two_handed_linkage(), reach.postures[f], reach.hands).transpose();
+        encode_posture(two_handed_linkage(), reach.postures[f], 0.0, reach.hands).transpose();
   }
   try {
     set_path(code, fit_endpoint_path(holds));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "reachcast/posture/straight_chest.hpp"
 #include "reachcast/posture/twist.hpp"
 
 namespace reachcast {
@@ -36,13 +37,13 @@ std::size_t coordinates_of(const ChainSpec& spec) {
   return Chain::coordinate_count(spec.joints.size() - 1);
 }
 
-/// Primary chain and parts; returns where the next coordinates go.
-double* encode_trunk(const Linkage& linkage, const Posture& posture, double* out) {
+/// Primary chain and parts; returns where the next coordinates go. `straight`: the posture with a straight chest.
+double* encode_trunk(const Linkage& linkage, const Posture& posture, const Posture& straight, double* out) {
   encode_chain(linkage.primary, posture, out);
   out += coordinates_of(linkage.primary);
   for (const RigidSpec& part : linkage.parts) {
-    const Vec3 base = posture[index(part.b)] - posture[index(part.a)],
-               apex = posture[index(part.apex)] - posture[index(part.a)];
+    const Vec3 base = straight[index(part.b)] - straight[index(part.a)],
+               apex = straight[index(part.apex)] - straight[index(part.a)];
     const double size = glm::length(base) * glm::length(apex);
     const Vec3 normal = size > 0.0 ? glm::cross(base, apex) / size : Vec3(0.0);
     for (int i = 0; i < 3; ++i) *out++ = normal[i];
@@ -71,8 +72,8 @@ Mat3 object_frame(const std::array<Vec3, 2>& grips, Hands hands) {
 
 /// The stand against which recordings are measured: they bring none of their own, and their trunk landmarks follow
 /// the same proportions.
-const Posture& upright() {
-  static const Posture stand = Body::from_stature(1.7).posture();
+const Body& upright() {
+  static const Body stand = Body::from_stature(1.7);
   return stand;
 }
 
@@ -107,36 +108,10 @@ Vec3 direction(const double* stored, const Vec3& otherwise) {
 
 }  // namespace
 
-Anchors mirrored(const Anchors& anchors) {
-  const auto flip = [](const std::array<Vec3, 2>& pair) {
-    return std::array{mirrored_point(pair[1]), mirrored_point(pair[0])};
-  };
-  return {flip(anchors.ball), flip(anchors.ankle), flip(anchors.grip), mirrored(anchors.hands),
-          mirrored_point(anchors.hang)};
-}
-
 Mat3 triangle_frame(const Vec3& a, const Vec3& b, const Vec3& apex) {
   const Vec3 x = glm::normalize(b - a);
   const Vec3 z = glm::normalize(glm::cross(x, apex - a));
   return {x, glm::cross(z, x), z};
-}
-
-Anchors anchors_of(const Posture& p, Hands hands) {
-  using enum Joint;
-  Anchors anchors{{p[index(left_ball)], p[index(right_ball)]},
-                  {p[index(left_ankle)], p[index(right_ankle)]},
-                  {p[index(left_grip)], p[index(right_grip)]},
-                  hands,
-                  Vec3(0.0)};
-  if (hands == Hands::both) return anchors;
-  const std::size_t free = free_side(hands);
-  anchors.hang = anchors.grip[free] - p[index(free == 0 ? left_shoulder : right_shoulder)];
-  return anchors;
-}
-
-Vec3 hold_point(const Anchors& anchors) {
-  if (anchors.hands != Hands::both) return anchors.grip[working_side(anchors.hands)];
-  return 0.5 * (anchors.grip[0] + anchors.grip[1]);
 }
 
 Eigen::Index posture_coordinate_count(const Linkage& linkage) {
@@ -159,15 +134,18 @@ Chain chain_of(const ChainSpec& spec, const Posture& posture, bool limited) {
   return {std::move(lengths), std::move(pivots), std::move(limits)};
 }
 
-Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded, Hands hands) {
+Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded, double bend_rad, Hands hands) {
   const Posture posture = twisted(recorded, -facing_yaw(anchors_of(recorded, hands)), hands);
+  const Posture straight = straight_chest(posture, bend_rad);
+  const Posture& stand = upright().posture();
+  const Mat3 upper = bent_stand(upright(), bend_rad).upper;
   const Mat3 object = object_frame(anchors_of(posture).grip, hands);
   Eigen::VectorXd out(posture_coordinate_count(linkage));
-  double* next = encode_trunk(linkage, posture, out.data());
-  next = encode_trunk(linkage, mirrored(posture), next);
+  double* next = encode_trunk(linkage, posture, straight, out.data());
+  next = encode_trunk(linkage, mirrored(posture), mirrored(straight), next);
   for (const PointerSpec& pointer : linkage.pointers) {
-    const Mat3 turn =
-        pointer.part == PointerSpec::kObject ? object : turn_of(linkage.parts[pointer.part], upright(), posture);
+    Mat3 turn = pointer.part == PointerSpec::kObject ? object : turn_of(linkage.parts[pointer.part], stand, straight);
+    if (pointer.part == kChest) turn = turn * upper;
     const Vec3 local = glm::transpose(turn) * glm::normalize(posture[index(pointer.to)] - posture[index(pointer.from)]);
     for (int i = 0; i < 3; ++i) *next++ = local[i];
   }
@@ -182,38 +160,49 @@ Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded, 
 BodyLinkage::BodyLinkage(const Linkage& linkage, const Body& body)
     : linkage_(linkage),
       body_(body),
-      sides_{side_of(body), side_of(Body::from_posture(mirrored(body.posture()), body.stature_m()))},
+      sides_{side_of(body.posture(), body.posture()), side_of(mirrored(body.posture()), mirrored(body.posture()))},
       waist_(position_in(linkage.primary, Joint::l5s1)) {
   for (const PointerSpec& pointer : linkage.pointers)
     pointer_lengths_.push_back(body.distance(pointer.from, pointer.to));
 }
 
-BodyLinkage::Side BodyLinkage::side_of(const Body& body) const {
+BodyLinkage::Side BodyLinkage::side_of(const Posture& stand, const Posture& straight) const {
   std::vector<std::size_t> joints{position_in(linkage_.primary, Joint::l5s1)};
   for (const RigidSpec& part : linkage_.parts) {
     for (const Joint joint : {part.a, part.b}) joints.push_back(position_in(linkage_.primary, joint));
   }
-  Side side{chain_of(linkage_.primary, body.posture(), true), {}, {}};
+  Side side{chain_of(linkage_.primary, stand, true), {}, {}};
   side.steps = side.primary.steps_to(joints);
-  for (std::size_t i = 0; i < kPartCount; ++i)
-    side.to_own_frame[i] = glm::transpose(frame_of(linkage_.parts[i], body.posture()));
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const RigidSpec& part = linkage_.parts[i];
+    const Vec3 base = straight[index(part.b)] - straight[index(part.a)];
+    const Vec3 normal = glm::cross(base, straight[index(part.apex)] - straight[index(part.a)]);
+    side.to_own_frame[i] = glm::transpose(frame_about(stand[index(part.a)], stand[index(part.b)], normal));
+  }
   return side;
 }
 
-Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted) const {
+Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted,
+                            double bend_rad) const {
   const double yaw = facing_yaw(wanted);
   const Anchors anchors = with_grips_turned(wanted, -yaw);
   const double* next = coordinates.data();
-  const Trunk trunk = trunk_between(next, anchors);
-  next += 2 * (sides_[0].primary.coordinate_count() + 3 * kPartCount);
+  const std::size_t trunk_count = sides_[0].primary.coordinate_count() + 3 * kPartCount;
+  const BentStand stand = bent_stand(body_, bend_rad);
+  const Trunk trunk = bend_rad == 0.0 ? trunk_of(sides_, next, anchors)
+                                      : trunk_of({side_of(stand.posture, body_.posture()),
+                                                  side_of(mirrored(stand.posture), mirrored(body_.posture()))},
+                                                 next, anchors);
+  next += 2 * trunk_count;
   Posture posture{};
   for (const std::size_t side : {0u, 1u}) {
     posture[index(side == 0 ? Joint::left_grip : Joint::right_grip)] = anchors.grip[side];
     posture[index(side == 0 ? Joint::left_ankle : Joint::right_ankle)] = anchors.ankle[side];
   }
-  place_trunk(trunk, next, object_frame(anchors.grip, anchors.hands), posture);
+  place_trunk(trunk, stand, next, object_frame(anchors.grip, anchors.hands), posture);
   next += 3 * linkage_.pointers.size();
   Decoded decoded;
+  decoded.bend_rad = bend_rad;
   for (std::size_t i = 0; i < kLimbCount; ++i) {
     const Yaw turn(linkage_.limbs[i].turn * yaw);
     decoded.planes[i] = {turn({next[0], next[1], next[2]}), turn({next[3], next[4], next[5]})};
@@ -227,15 +216,15 @@ Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates
   return decoded;
 }
 
-/// With both hands at work, the mean of the trunk and of the mirror image's trunk.
-BodyLinkage::Trunk BodyLinkage::trunk_between(const double* stored, const Anchors& anchors) const {
-  if (anchors.hands == Hands::right) return trunk_of(sides_[0], stored, anchors);
-  const std::size_t count = sides_[0].primary.coordinate_count() + 3 * kPartCount;
-  Trunk image = trunk_of(sides_[1], stored + count, mirrored(anchors));
+BodyLinkage::Trunk BodyLinkage::trunk_of(const std::array<Side, 2>& sides, const double* stored,
+                                         const Anchors& anchors) const {
+  if (anchors.hands == Hands::right) return trunk_of(sides[0], stored, anchors);
+  const std::size_t count = sides[0].primary.coordinate_count() + 3 * kPartCount;
+  Trunk image = trunk_of(sides[1], stored + count, mirrored(anchors));
   image.waist = mirrored_point(image.waist);
   for (Quat& turn : image.turns) turn = mirrored_turn(turn);
   if (anchors.hands == Hands::left) return image;
-  Trunk trunk = trunk_of(sides_[0], stored, anchors);
+  Trunk trunk = trunk_of(sides[0], stored, anchors);
   trunk.waist = 0.5 * (trunk.waist + image.waist);
   for (std::size_t i = 0; i < kPartCount; ++i) trunk.turns[i] = middle_turn(trunk.turns[i], image.turns[i]);
   return trunk;
@@ -258,16 +247,18 @@ BodyLinkage::Trunk BodyLinkage::trunk_of(const Side& side, const double* stored,
   return trunk;
 }
 
-void BodyLinkage::place_trunk(const Trunk& trunk, const double* pointers, const Mat3& object, Posture& posture) const {
+void BodyLinkage::place_trunk(const Trunk& trunk, const BentStand& stand, const double* pointers, const Mat3& object,
+                              Posture& posture) const {
   std::array<Mat3, kPartCount> turns;
   const Vec3 waist = body_.at(Joint::l5s1);
   for (std::size_t i = 0; i < kPartCount; ++i) {
     const RigidSpec& part = linkage_.parts[i];
     turns[i] = glm::mat3_cast(trunk.turns[i]);
-    const auto place = [&](Joint j) { posture[index(j)] = trunk.waist + turns[i] * (body_.at(j) - waist); };
+    const auto place = [&](Joint j) { posture[index(j)] = trunk.waist + turns[i] * (stand.posture[index(j)] - waist); };
     for (const Joint j : {part.a, part.b, part.apex}) place(j);
     for (const Joint j : part.riders) place(j);
   }
+  turns[kChest] = turns[kChest] * stand.upper;
   for (std::size_t i = 0; i < linkage_.pointers.size(); ++i, pointers += 3) {
     const PointerSpec& pointer = linkage_.pointers[i];
     const Mat3& frame = pointer.part == PointerSpec::kObject ? object : turns[pointer.part];

@@ -12,7 +12,7 @@ PostureCurves body_curves(const MotionCode& code) {
 }
 
 Eigen::VectorXd body_coordinates(const Posture& posture, Hands hands) {
-  const Eigen::VectorXd coordinates = encode_posture(two_handed_linkage(), posture, hands);
+  const Eigen::VectorXd coordinates = encode_posture(two_handed_linkage(), posture, 0.0, hands);
   if (hands == Hands::both) return coordinates;
   Eigen::VectorXd all(coordinates.size() + 3);
   all << coordinates, to_eigen(relative_hang(posture, hands));

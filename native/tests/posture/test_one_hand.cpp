@@ -29,7 +29,7 @@ TEST(OneHand, DecodeInvertsEncodeAlsoOfTheFreeArm) {
     const Body body = hands == Hands::right ? same : Body::from_posture(wanted, 1.75);
     const Anchors anchors = anchors_of(wanted, hands);
     const Decoded decoded =
-        BodyLinkage(two_handed_linkage(), body).decode(encode_posture(two_handed_linkage(), wanted, hands), anchors);
+        BodyLinkage(two_handed_linkage(), body).decode(encode_posture(two_handed_linkage(), wanted, 0.0, hands), anchors);
     HoldReport report;
     const Posture back = Holder(two_handed_linkage(), body, 70.0)
                              .hold(decoded, {Vec3(0.0), Vec3(0.0), decoded.wrist_from_grip}, anchors, {}, report);
@@ -104,7 +104,7 @@ TEST(OneHand, AnObjectOutOfReachIsMissedByTheWorkingShoulder) {
     Anchors anchors = anchors_of(body.posture(), hands);
     anchors.grip[working_side(hands)] += Vec3(0, 0, 3.0);
     HoldReport report;
-    const Eigen::VectorXd x = encode_posture(two_handed_linkage(), body.posture(), hands);
+    const Eigen::VectorXd x = encode_posture(two_handed_linkage(), body.posture(), 0.0, hands);
     (void)Holder(two_handed_linkage(), body, 70.0)
         .hold(BodyLinkage(two_handed_linkage(), body).decode(x, anchors), anchors, {}, report);
     EXPECT_GT(report.shortfall_m, 0.2);
