@@ -70,6 +70,7 @@ class Task:
     object: Box
     home_yaw: float = 0.0
     target_yaw: float = 0.0
+    hands: str = "both"
 
 
 class Corpus:

@@ -6,6 +6,8 @@
 #include <functional>
 
 #include "motion/made_lift.hpp"
+#include "motion/made_one_handed.hpp"
+#include "reachcast/posture/free_arm.hpp"
 #include "reachcast/posture/linkage.hpp"
 #include "reachcast/posture/whole_body.hpp"
 
@@ -134,6 +136,25 @@ TEST(EncodeReach, TheMirrorImageOfTheMirrorImageIsTheReach) {
   EXPECT_EQ(encode_reach(mirrored(mirrored(reach))).coefficients, encode_reach(reach).coefficients);
   const MotionCode image = encode_reach(mirrored(reach));
   EXPECT_LT(glm::distance(image.target, kTarget * Vec3(-1, 1, 1)), kExact);
+}
+
+TEST(EncodeReach, OneHandsPathIsThatOfItsGrip) {
+  const Reach reach = tests::made_one_handed(1.75, {0.25, 0.38, 0.95}, {0.35, 0.38, 1.3}, Hands::left);
+  const MotionCode code = encode_reach(reach);
+  EXPECT_EQ(code.hands, Hands::left);
+  EXPECT_EQ(code.grip_distance_m, 0.0);
+  EXPECT_EQ(code.home, reach.postures.front()[index(Joint::left_grip)]);
+  EXPECT_EQ(code.target, reach.postures.back()[index(Joint::left_grip)]);
+}
+
+TEST(EncodeReach, TheFreeArmHangsAsItDid) {
+  const Reach reach = tests::made_one_handed(1.75, {0.25, 0.38, 0.95}, {0.35, 0.38, 1.3}, Hands::right);
+  const HangCurves curves = hang_curves(encode_reach(reach));
+  for (std::size_t f = 0; f < reach.frames(); ++f) {
+    const double t = static_cast<double>(f) / static_cast<double>(reach.frames() - 1);
+    const Eigen::Vector3d hang = curves * bspline_row(t).transpose();
+    EXPECT_LT((hang - to_eigen(relative_hang(reach.postures[f], Hands::right))).norm(), 0.005) << f;
+  }
 }
 
 TEST(EncodeReach, RefusesWhatIsNoReachAndNamesItsOrigin) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "motion/made_lift.hpp"
+#include "motion/made_one_handed.hpp"
 #include "reachcast/motion/encode.hpp"
 
 namespace reachcast {
@@ -24,6 +25,13 @@ TEST(MirrorImage, IsWhatTheMirroredPosturesGive) {
                         wanted = encode_reach(mirrored(reach)).coefficients;
   EXPECT_GT((wanted - encode_reach(reach).coefficients).cwiseAbs().maxCoeff(), 0.1) << "the lift is not its own image";
   EXPECT_LT((image - wanted).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(MirrorImage, OfARightHandIsTheLeftHandOfTheMirroredMotion) {
+  const Reach reach = tests::made_one_handed(1.75, {0.25, 0.38, 0.95}, {0.35, 0.38, 1.3}, Hands::right);
+  const MotionCode wanted = encode_reach(mirrored(reach));
+  EXPECT_EQ(wanted.hands, Hands::left);
+  EXPECT_LT((mirror_image(encode_reach(reach).coefficients) - wanted.coefficients).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 TEST(MirrorImage, OfTheImageIsTheMotionInEveryBit) {
