@@ -58,11 +58,12 @@ std::string missing_object(const Tracked& recorded, const FrameRange& range, dou
   return {};
 }
 
-/// Whether both hands hold the same thing all the way.
+/// Whether the hands that work hold the same thing all the way.
 std::string loose_hold(const Tracked& recorded, const FrameRange& range, const FindOptions& options) {
   const HandTracks& hands = recorded.hands;
   if (recorded.object) {
     for (std::size_t side = 0; side < 2; ++side) {
+      if (!works(hands.hands, side)) continue;
       const double slip =
           spread(range, [&](std::size_t f) { return glm::distance(hands.grips[side][f], (*recorded.object)[f]); });
       if (slip > options.slip_m) {
@@ -72,6 +73,7 @@ std::string loose_hold(const Tracked& recorded, const FrameRange& range, const F
     }
     return missing_object(recorded, range, options.cut.longest_gap_s);
   }
+  if (hands.hands != Hands::both) return {};
   const double parted = spread(range, [&](std::size_t f) { return hands.apart(f); });
   if (parted <= options.parted_m) return {};
   return "the distance between the hands varies by " + two_digits(parted) + " m; at most " +
@@ -79,6 +81,7 @@ std::string loose_hold(const Tracked& recorded, const FrameRange& range, const F
 }
 
 std::string uneven_hands(const HandTracks& hands, const FrameRange& range, const FindOptions& options) {
+  if (hands.hands != Hands::both) return {};
   double uneven = 0.0;
   for (std::size_t f = range.first; f <= range.last; ++f) {
     uneven = std::max(uneven, std::abs(hands.grips[0][f].z - hands.grips[1][f].z));

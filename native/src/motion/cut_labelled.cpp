@@ -38,7 +38,7 @@ void cut_label(const Clip& clip, const HandTracks& hands, const PhaseLabel& labe
                     evidence.faults};
   std::string reason = standing_about(clip, range.first, range, options).moved;
   if (reason.empty()) reason = why_not(all, range, label.phase, options);
-  keeper.keep(range, label.phase, reason, found);
+  keeper.keep(range, label.phase, label.hands, reason, found);
 }
 
 }  // namespace
@@ -49,8 +49,10 @@ FoundReaches cut_labelled(const Clip& clip, const std::vector<PhaseLabel>& label
   const Subject anybody{1.75, {}, {}, {}};
   const Keeper checked(clip, subject.value_or(anybody), options, evidence);
   FoundReaches found;
-  const HandTracks hands = hand_tracks(clip);
+  const std::array<HandTracks, kHandsCount> tracks{hand_tracks(clip), hand_tracks(clip, Hands::left),
+                                                   hand_tracks(clip, Hands::right)};
   for (const PhaseLabel& label : labels) {
+    const HandTracks& hands = tracks[static_cast<std::size_t>(label.hands)];
     const std::size_t first = label.first.value_or(0), last = label.last.value_or(0);
     const std::string phase(phase_name(label.phase));
     const std::optional<Subject> person = subject_of(label, subject);

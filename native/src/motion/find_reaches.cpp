@@ -9,6 +9,7 @@
 #include "check_way.hpp"
 #include "keep_reach.hpp"
 #include "plan_ways.hpp"
+#include "working_hands.hpp"
 
 namespace reachcast {
 namespace {
@@ -73,7 +74,7 @@ class Cutter {
                " % of their peak speed; at most " + std::to_string(std::lround(100.0 * options_.fastest_end)) +
                " % are taken";
     }
-    keeper_.keep(part.frames, phase, reason, found_);
+    keeper_.keep(part.frames, phase, recorded_.hands.hands, reason, found_);
   }
 
   const Tracked& recorded_;
@@ -117,6 +118,8 @@ FoundReaches find_reaches(const Clip& clip, const Subject& subject, const FindOp
   try {
     hands = hand_tracks(clip);
     if (evidence.object) object = bridged(evidence.object->positions, "the object '" + evidence.object->name + "'");
+    const Hands working = working_hands(hands, clip, object ? &*object : nullptr, options);
+    if (working != Hands::both) hands = hand_tracks(clip, working);
   } catch (const std::invalid_argument& missing) {
     return nothing(missing.what());
   }

@@ -55,7 +55,8 @@ Keeper::Keeper(const Clip& clip, const Subject& subject, const FindOptions& opti
   }
 }
 
-void Keeper::keep(const FrameRange& frames, Phase phase, const std::string& reason, FoundReaches& found) const {
+void Keeper::keep(const FrameRange& frames, Phase phase, Hands hands, const std::string& reason,
+                  FoundReaches& found) const {
   const auto reject = [&](const std::string& why) {
     found.rejections.push_back({std::string(phase_name(phase)), why, frames.first, frames.last});
   };
@@ -66,6 +67,7 @@ void Keeper::keep(const FrameRange& frames, Phase phase, const std::string& reas
   const std::string origin = origin_ + ':' + std::to_string(frames.first) + '-' + std::to_string(frames.last);
   try {
     found.reaches.push_back(cut_reach(clip_, frames.first, frames.last, subject_, phase, origin, options_.cut));
+    found.reaches.back().hands = hands;
     found.frames.push_back(frames);
   } catch (const std::invalid_argument& refusal) {
     reject(refusal.what());

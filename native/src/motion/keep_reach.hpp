@@ -14,7 +14,7 @@ class Keeper {
   Keeper(const Clip& clip, const Subject& subject, const FindOptions& options, const Evidence& evidence);
 
   /// Cuts the frames out, or notes the reason why they are left out; what cut_reach refuses is a reason too.
-  void keep(const FrameRange& frames, Phase phase, const std::string& reason, FoundReaches& found) const;
+  void keep(const FrameRange& frames, Phase phase, Hands hands, const std::string& reason, FoundReaches& found) const;
 
  private:
   const Clip& clip_;

@@ -120,17 +120,20 @@ std::vector<double> smooth_speeds(const Points& points, double rate_hz) {
   return speeds;
 }
 
-HandTracks hand_tracks(const Clip& clip) {
+HandTracks hand_tracks(const Clip& clip, Hands hands) {
   HandTracks tracks;
   tracks.rate_hz = clip.rate_hz;
+  tracks.hands = hands;
   constexpr std::array<Joint, 2> grips{Joint::left_grip, Joint::right_grip};
   for (std::size_t side = 0; side < 2; ++side) {
     Points points;
     for (std::size_t f = 0; f < clip.frames(); ++f) points.push_back(clip.at(f, index(grips[side])));
     tracks.grips[side] = bridged(std::move(points), std::string(joint_name(grips[side])));
   }
-  for (std::size_t f = 0; f < clip.frames(); ++f)
-    tracks.hold.push_back(0.5 * (tracks.grips[0][f] + tracks.grips[1][f]));
+  for (std::size_t f = 0; f < clip.frames(); ++f) {
+    const Vec3 &left = tracks.grips[0][f], &right = tracks.grips[1][f];
+    tracks.hold.push_back(hands == Hands::both ? 0.5 * (left + right) : hands == Hands::left ? left : right);
+  }
   tracks.speed = smooth_speeds(tracks.hold, clip.rate_hz);
   return tracks;
 }

@@ -20,13 +20,14 @@ namespace reachcast {
 struct HandTracks {
   double rate_hz = 0.0;
   std::array<Points, 2> grips;  ///< left, right; bridged
-  Points hold;                  ///< their middle
-  std::vector<double> speed;    ///< of the middle, m/s, smoothed
+  Points hold;                  ///< their middle, or the grip of the one hand that works
+  std::vector<double> speed;    ///< of the hold, m/s, smoothed
+  Hands hands = Hands::both;    ///< which work
 
   [[nodiscard]] std::size_t frames() const { return hold.size(); }
   [[nodiscard]] double apart(std::size_t frame) const { return glm::distance(grips[0][frame], grips[1][frame]); }
 };
-[[nodiscard]] HandTracks hand_tracks(const Clip& clip);
+[[nodiscard]] HandTracks hand_tracks(const Clip& clip, Hands hands = Hands::both);
 
 /// Movements of the hold point within a range, in order: between stops, without their slow beginnings and ends.
 [[nodiscard]] std::vector<FrameRange> movements(const HandTracks& hands, const FrameRange& within,

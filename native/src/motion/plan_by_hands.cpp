@@ -33,7 +33,8 @@ class HandState {
   /// The phase of the next stroke; nothing when the hands only swing from rest to rest.
   std::optional<Phase> next(const FrameRange& stroke) {
     const bool from_rest = at_rest(hands_, clip_, stroke.first), to_rest = at_rest(hands_, clip_, stroke.last);
-    const bool keep = spread(stroke, [&](std::size_t f) { return hands_.apart(f); }) <= options_.parted_m;
+    const bool keep = hands_.hands != Hands::both ||
+                      spread(stroke, [&](std::size_t f) { return hands_.apart(f); }) <= options_.parted_m;
     const bool come = state_ == State::arrived || (state_ == State::unknown && !from_rest);
     if (state_ == State::arrived ? keep : state_ == State::holding && keep && !to_rest) {
       if (state_ == State::arrived) home_.pick_up(hands_.hold[stroke.first]);

@@ -69,14 +69,15 @@ std::vector<FrameRange> find_carries(const HandTracks& hands, const Points& obje
 }
 
 /// The frame at which the hands are slowest while they touch the object at rest: from `from` towards `to`, as long as
-/// both stay as far from it as they are at `from`, to half the slip.
+/// those that work stay as far from it as they are at `from`, to half the slip.
 std::size_t stillest_touch(const HandTracks& hands, const Points& object, std::size_t from, std::size_t to,
                            const FindOptions& options) {
   const auto touch = [&](std::size_t f) {
-    return std::all_of(hands.grips.begin(), hands.grips.end(), [&](const Points& grip) {
+    const auto stays = [&](const Points& grip) {
       const double now = glm::distance(grip[f], object[f]), then = glm::distance(grip[from], object[from]);
       return std::abs(now - then) <= 0.5 * options.slip_m;
-    });
+    };
+    return (!works(hands.hands, 0) || stays(hands.grips[0])) && (!works(hands.hands, 1) || stays(hands.grips[1]));
   };
   std::size_t stillest = from;
   for (std::size_t f = from; f != to;) {

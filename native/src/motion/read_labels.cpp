@@ -12,8 +12,9 @@
 namespace reachcast {
 namespace {
 
-constexpr std::array<std::string_view, 12> kColumns{"file",  "subject", "stature_m", "sex",     "age",   "mass_kg",
-                                                    "phase", "first",   "last",      "start_s", "end_s", "object"};
+constexpr std::array<std::string_view, 13> kColumns{"file",    "subject", "stature_m", "sex",   "age",
+                                                    "mass_kg", "phase",   "hands",     "first", "last",
+                                                    "start_s", "end_s",   "object"};
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kEvents{{{"grasp_frame", "grasp"},
                                                                                 {"lift_off_frame", "lift-off"},
                                                                                 {"placed_frame", "placed"},
@@ -151,6 +152,10 @@ PhaseLabel read_row(const TextTable& table, const TextTable::Row& row) {
   const std::optional<Phase> known = find_phase(phase);
   if (!known) fail(cells.where(), "phase must be transfer, return, reach or retrieve, not '" + phase + "'");
   label.phase = *known;
+  const std::string hands = cells.text("hands").value_or("both");
+  const std::optional<Hands> working = find_hands(hands);
+  if (!working) fail(cells.where(), "hands must be both, left or right, not '" + hands + "'");
+  label.hands = *working;
   label.object = cells.text("object");
   read_times(cells, label);
   read_events(cells, label);
@@ -176,6 +181,7 @@ std::string PhaseLabel::text() const {
   std::ostringstream out;
   out.precision(12);
   out << file << ": " << phase_name(phase);
+  if (hands != Hands::both) out << " with the " << hands_name(hands) << " hand";
   const auto add = [&](const char* name, const auto& value) {
     if (value) out << ", " << name << ' ' << *value;
   };

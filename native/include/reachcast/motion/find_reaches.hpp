@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Cuts the phases out of a whole recording and names them, without anybody's labels.
 ///
-/// - Movements lie between moments at which the hold point (middle of the grips) is still. With an object's track the
-///   hands hold it from lift-off to where it is placed; without one the hands tell: once they have come to a place,
+/// - Movements lie between moments at which the hold point (middle of the grips) is still. Where one hand hangs at the
+///   side whenever there is work, all reaches are of the other and the hold point is its grip. With an object's track
+///   the hands hold it from lift-off to where it is placed; without one the hands tell: once they have come to a place,
 ///   they hold something as long as they keep their distance from each other and do not sink to the sides.
 /// - Names: empty to the object, or to the first place, is `reach`; holding is `transfer`; holding back to where the
 ///   object was picked up is `retrieve`; empty afterwards is `return`.

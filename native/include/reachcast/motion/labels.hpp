@@ -23,6 +23,7 @@ struct PhaseLabel {
   std::optional<double> age_years;  ///< 0 to 130
   std::optional<double> mass_kg;    ///< over 0, at most 500
   Phase phase = Phase::transfer;
+  Hands hands = Hands::both;
   std::optional<std::size_t> first, last;  ///< frames of the recording, from 0; both or neither
   std::optional<double> start_s, end_s;    ///< seconds from its first frame; both or neither
   /// A point of the recording if it has one of this name, else a word for people.
@@ -37,8 +38,9 @@ struct PhaseLabel {
 };
 
 /// Columns: file, phase, and first and last (frames) or start_s and end_s; optional: subject, stature_m, sex (female,
-/// male, f, m), age, mass_kg, object, grasp_frame, lift_off_frame, placed_frame, release_frame. Letter case of names
-/// does not matter. Throws std::invalid_argument naming an unknown or missing column, or the row, value and limit.
+/// male, f, m), age, mass_kg, hands (both, left, right), object, grasp_frame, lift_off_frame, placed_frame,
+/// release_frame. Letter case of names does not matter. Throws std::invalid_argument naming an unknown or missing
+/// column, or the row, value and limit.
 [[nodiscard]] std::vector<PhaseLabel> read_labels(const std::string& path);
 
 /// The same from text in memory; `source` names it in messages.
