@@ -30,7 +30,7 @@ class ExpectedError(unittest.TestCase):
     def test_it_is_what_the_cross_validation_takes_the_median_of(self) -> None:
         core, found = native.core(), compute(self.path)
         with core.Corpus.open(self.path) as corpus:
-            transfers = [motion for motion in corpus.motions() if motion.phase == "transfer"]
+            transfers = [motion for motion in corpus.motions() if motion.phase == "transfer" and motion.hands == "both"]
             row = core.cross_validate(corpus, [{}], "subject")[0]
         originals = [found.errors[motion.id] for motion in transfers if not motion.mirrored]
         self.assertEqual(found.what, "people")

@@ -37,7 +37,7 @@ def compute(path: str) -> LeftOut:
     """Cross-validation of the default scheme. ValueError or RuntimeError of the native module for a bad file."""
     core = native.core()
     with core.Corpus.open(path) as corpus:
-        transfers = [motion for motion in corpus.motions() if motion.phase == "transfer"]
+        transfers = [motion for motion in corpus.motions() if motion.phase == "transfer" and motion.hands == "both"]
         if len(transfers) > MOST_TRANSFERS:
             return LeftOut({}, "people", f"{len(transfers)} transfers are more than {MOST_TRANSFERS}")
         what = "people" if len({motion.subject_id for motion in transfers}) > 1 else "motions"

@@ -40,7 +40,7 @@ def motion_details(corpus: object, motion_id: int) -> list[str]:
         "file": f"{source.id}: {source.path}, {source.checksum}" if source else "none",
         "phase": motion.phase, "person": person_text(motion.subject), "duration": f"{motion.duration:.3f} s",
         "from": f"({_point(motion.home)}) m", "to": f"({_point(motion.target)}) m",
-        "hands apart": f"{motion.grip_distance:.3f} m",
+        "hands": f"both, {motion.grip_distance:.3f} m apart" if motion.hands == "both" else f"{motion.hands} alone",
     }
     return [f"motion {motion.id}"] + [f"  {name}: {value}" for name, value in rows.items()]
 
