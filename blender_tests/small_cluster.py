@@ -15,6 +15,7 @@ from typing import Any
 DAEMONS = ("munged", "slurmctld", "slurmd", "sbatch")
 NODE_LOST_S = 10      #: a node that does not answer for so long is down and its jobs are requeued
 REQUEUED_S = 10       #: a requeued job waits so long
+FIRST_WITHOUT_CGROUP = 23   #: Slurm that else wants /sys/fs/cgroup, which a chroot need not have; earlier ones do not
 
 CONF = """ClusterName=reachcast
 SlurmctldHost={host}(127.0.0.1)
@@ -143,6 +144,8 @@ class SmallCluster:
         user = subprocess.run(["id", "-un"], capture_output=True, text=True, check=True).stdout.strip()
         (self.folder / "slurm.conf").write_text(CONF.format(
             host=host, ports=ports, user=user, folder=self.folder, nodes=nodes, lost=NODE_LOST_S, requeued=REQUEUED_S))
+        if int(self.run("slurmctld", "-V").split()[-1].partition(".")[0]) >= FIRST_WITHOUT_CGROUP:
+            (self.folder / "cgroup.conf").write_text("CgroupPlugin=disabled\n")
 
 
 def missing_daemons() -> list[str]:

@@ -19,6 +19,7 @@ PYBIND11_MODULE(reachcast_core, m) {
   bind_reaches(m);
   bind_corpus(m);
   bind_task(m);
+  bind_contact(m);
   bind_predict(m);
   bind_cross_validate(m);
   bind_rig(m);

@@ -7,6 +7,7 @@
 void bind_body(pybind11::module_& m);
 void bind_posture(pybind11::module_& m);
 void bind_weight(pybind11::module_& m);
+void bind_contact(pybind11::module_& m);
 void bind_curves(pybind11::module_& m);
 void bind_hand_path(pybind11::module_& m);
 void bind_variation(pybind11::module_& m);

@@ -250,6 +250,29 @@ Body Body::from_lengths(double stature_m, const std::map<std::string, double>& l
   return from_posture(rebuilt(base.posture(), wanted), stature_m);
 }
 
+Body Body::bending_at(const Points& points) const {
+  Body out = *this;
+  Points& pieces = out.spine_.emplace();
+  Vec3 below = at(Joint::l5s1);
+  for (const Vec3& point : points) {
+    if (!is_finite(point)) fail("spine: point " + std::to_string(pieces.size()) + " is not finite");
+    pieces.push_back(point - below);
+    below = point;
+  }
+  pieces.push_back(at(Joint::c7t1) - below);
+  return out;
+}
+
+Body mirrored(const Body& body) {
+  const Body image = Body::from_posture(mirrored(body.posture()), body.stature_m());
+  if (!body.spine()) return image;
+  Points points;
+  Vec3 at = image.at(Joint::l5s1);
+  for (const Vec3& piece : *body.spine()) points.push_back(at += Vec3(-piece.x, piece.y, piece.z));
+  points.pop_back();
+  return image.bending_at(points);
+}
+
 std::map<std::string, double> Body::lengths() const {
   std::map<std::string, double> out;
   const auto measured = segment_lengths(posture_);

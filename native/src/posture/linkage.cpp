@@ -24,11 +24,10 @@ Linkage make_two_handed() {
                     {right_hip, right_knee, right_ankle, kKnee, 0.2},
                     {left_shoulder, left_elbow, left_wrist, kElbow, 1.0},
                     {right_shoulder, right_elbow, right_wrist, kElbow, 1.0}}};
-  const std::size_t chest = 1;
-  linkage.pointers = {{left_clavicle, left_shoulder, chest},
-                      {right_clavicle, right_shoulder, chest},
-                      {c7t1, tragion, chest},
-                      {tragion, nasion, chest},
+  linkage.pointers = {{left_clavicle, left_shoulder, kChest},
+                      {right_clavicle, right_shoulder, kChest},
+                      {c7t1, tragion, kChest},
+                      {tragion, nasion, kChest},
                       {left_grip, left_wrist, PointerSpec::kObject},
                       {right_grip, right_wrist, PointerSpec::kObject}};
   return linkage;

@@ -27,6 +27,7 @@ void add_to(TrunkPose& sum, const TrunkPose& pose, double weight) {
     sum.planes[i].axis += weight * pose.planes[i].axis;
   }
   for (std::size_t i = 0; i < 2; ++i) sum.wrist_from_grip[i] += weight * pose.wrist_from_grip[i];
+  sum.bend_rad += weight * pose.bend_rad;
 }
 
 }  // namespace
@@ -34,12 +35,15 @@ void add_to(TrunkPose& sum, const TrunkPose& pose, double weight) {
 TrunkPose trunk_pose_of(const Linkage& linkage, const Body& body, const Decoded& decoded) {
   TrunkPose pose;
   pose.waist = decoded.trunk[index(Joint::l5s1)];
+  pose.bend_rad = decoded.bend_rad;
+  const BentStand stand = bent_stand(body, decoded.bend_rad);
   std::array<Mat3, 2> turns;
   for (std::size_t i = 0; i < turns.size(); ++i) {
     const RigidSpec& part = linkage.parts[i];
-    turns[i] = part_frame(part, decoded.trunk) * glm::transpose(part_frame(part, body.posture()));
+    turns[i] = part_frame(part, decoded.trunk) * glm::transpose(part_frame(part, stand.posture));
     pose.parts[i] = glm::normalize(glm::quat_cast(turns[i]));
   }
+  turns[kChest] = turns[kChest] * stand.upper;
   std::size_t next = 0;
   for (const PointerSpec& pointer : linkage.pointers) {
     if (pointer.part == PointerSpec::kObject) continue;
@@ -53,16 +57,19 @@ TrunkPose trunk_pose_of(const Linkage& linkage, const Body& body, const Decoded&
 
 Decoded decoded_of(const Linkage& linkage, const Body& body, const TrunkPose& pose) {
   Decoded out;
+  out.bend_rad = pose.bend_rad;
+  const BentStand stand = bent_stand(body, pose.bend_rad);
   std::array<Mat3, 2> turns;
   for (std::size_t i = 0; i < turns.size(); ++i) {
     const RigidSpec& part = linkage.parts[i];
     turns[i] = glm::mat3_cast(glm::normalize(pose.parts[i]));
     const auto place = [&](Joint j) {
-      out.trunk[index(j)] = pose.waist + turns[i] * (body.at(j) - body.at(Joint::l5s1));
+      out.trunk[index(j)] = pose.waist + turns[i] * (stand.posture[index(j)] - body.at(Joint::l5s1));
     };
     for (const Joint j : {part.a, part.b, part.apex}) place(j);
     for (const Joint j : part.riders) place(j);
   }
+  turns[kChest] = turns[kChest] * stand.upper;
   std::size_t next = 0;
   for (const PointerSpec& pointer : linkage.pointers) {
     if (pointer.part == PointerSpec::kObject) continue;

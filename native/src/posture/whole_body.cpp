@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "reachcast/posture/straight_chest.hpp"
 #include "reachcast/posture/twist.hpp"
 
 namespace reachcast {
@@ -36,13 +37,13 @@ std::size_t coordinates_of(const ChainSpec& spec) {
   return Chain::coordinate_count(spec.joints.size() - 1);
 }
 
-/// Primary chain and parts; returns where the next coordinates go.
-double* encode_trunk(const Linkage& linkage, const Posture& posture, double* out) {
+/// Primary chain and parts; returns where the next coordinates go. `straight`: the posture with a straight chest.
+double* encode_trunk(const Linkage& linkage, const Posture& posture, const Posture& straight, double* out) {
   encode_chain(linkage.primary, posture, out);
   out += coordinates_of(linkage.primary);
   for (const RigidSpec& part : linkage.parts) {
-    const Vec3 base = posture[index(part.b)] - posture[index(part.a)],
-               apex = posture[index(part.apex)] - posture[index(part.a)];
+    const Vec3 base = straight[index(part.b)] - straight[index(part.a)],
+               apex = straight[index(part.apex)] - straight[index(part.a)];
     const double size = glm::length(base) * glm::length(apex);
     const Vec3 normal = size > 0.0 ? glm::cross(base, apex) / size : Vec3(0.0);
     for (int i = 0; i < 3; ++i) *out++ = normal[i];
@@ -69,8 +70,8 @@ Mat3 object_frame(const Vec3& left_grip, const Vec3& right_grip) {
 
 /// The stand against which recordings are measured: they bring none of their own, and their trunk landmarks follow
 /// the same proportions.
-const Posture& upright() {
-  static const Posture stand = Body::from_stature(1.7).posture();
+const Body& upright() {
+  static const Body stand = Body::from_stature(1.7);
   return stand;
 }
 
@@ -138,15 +139,19 @@ Chain chain_of(const ChainSpec& spec, const Posture& posture, bool limited) {
   return {std::move(lengths), std::move(pivots), std::move(limits)};
 }
 
-Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded) {
+Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded, double bend_rad) {
   const Posture posture = twisted(recorded, -facing_yaw(anchors_of(recorded)));
+  const Posture straight = straight_chest(posture, bend_rad);
+  const Posture& stand = upright().posture();
+  const Mat3 upper = bent_stand(upright(), bend_rad).upper;
   Eigen::VectorXd out(posture_coordinate_count(linkage));
-  double* next = encode_trunk(linkage, posture, out.data());
-  next = encode_trunk(linkage, mirrored(posture), next);
+  double* next = encode_trunk(linkage, posture, straight, out.data());
+  next = encode_trunk(linkage, mirrored(posture), mirrored(straight), next);
   for (const PointerSpec& pointer : linkage.pointers) {
-    const Mat3 turn = pointer.part == PointerSpec::kObject
-                          ? object_frame(posture[index(Joint::left_grip)], posture[index(Joint::right_grip)])
-                          : turn_of(linkage.parts[pointer.part], upright(), posture);
+    Mat3 turn = pointer.part == PointerSpec::kObject
+                    ? object_frame(posture[index(Joint::left_grip)], posture[index(Joint::right_grip)])
+                    : turn_of(linkage.parts[pointer.part], stand, straight);
+    if (pointer.part == kChest) turn = turn * upper;
     const Vec3 local = glm::transpose(turn) * glm::normalize(posture[index(pointer.to)] - posture[index(pointer.from)]);
     for (int i = 0; i < 3; ++i) *next++ = local[i];
   }
@@ -161,42 +166,49 @@ Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded) 
 BodyLinkage::BodyLinkage(const Linkage& linkage, const Body& body)
     : linkage_(linkage),
       body_(body),
-      sides_{side_of(body), side_of(Body::from_posture(mirrored(body.posture()), body.stature_m()))},
+      sides_{side_of(body.posture(), body.posture()), side_of(mirrored(body.posture()), mirrored(body.posture()))},
       waist_(position_in(linkage.primary, Joint::l5s1)) {
   for (const PointerSpec& pointer : linkage.pointers)
     pointer_lengths_.push_back(body.distance(pointer.from, pointer.to));
 }
 
-BodyLinkage::Side BodyLinkage::side_of(const Body& body) const {
+BodyLinkage::Side BodyLinkage::side_of(const Posture& stand, const Posture& straight) const {
   std::vector<std::size_t> joints{position_in(linkage_.primary, Joint::l5s1)};
   for (const RigidSpec& part : linkage_.parts) {
     for (const Joint joint : {part.a, part.b}) joints.push_back(position_in(linkage_.primary, joint));
   }
-  Side side{chain_of(linkage_.primary, body.posture(), true), {}, {}};
+  Side side{chain_of(linkage_.primary, stand, true), {}, {}};
   side.steps = side.primary.steps_to(joints);
-  for (std::size_t i = 0; i < kPartCount; ++i)
-    side.to_own_frame[i] = glm::transpose(frame_of(linkage_.parts[i], body.posture()));
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const RigidSpec& part = linkage_.parts[i];
+    const Vec3 base = straight[index(part.b)] - straight[index(part.a)];
+    const Vec3 normal = glm::cross(base, straight[index(part.apex)] - straight[index(part.a)]);
+    side.to_own_frame[i] = glm::transpose(frame_about(stand[index(part.a)], stand[index(part.b)], normal));
+  }
   return side;
 }
 
-Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted) const {
+Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted,
+                            double bend_rad) const {
   const double yaw = facing_yaw(wanted);
   const Anchors anchors = with_grips_turned(wanted, -yaw);
   const double* next = coordinates.data();
   const std::size_t trunk_count = sides_[0].primary.coordinate_count() + 3 * kPartCount;
-  Trunk trunk = trunk_of(sides_[0], next, anchors);
-  const Trunk mirror = trunk_of(sides_[1], next + trunk_count, mirrored(anchors));
-  trunk.waist = 0.5 * (trunk.waist + Vec3(-mirror.waist.x, mirror.waist.y, mirror.waist.z));
-  for (std::size_t i = 0; i < kPartCount; ++i) trunk.turns[i] = middle_turn(trunk.turns[i], mirror.turns[i]);
+  const BentStand stand = bent_stand(body_, bend_rad);
+  const Trunk trunk = bend_rad == 0.0 ? trunk_of(sides_, next, anchors)
+                                      : trunk_of({side_of(stand.posture, body_.posture()),
+                                                  side_of(mirrored(stand.posture), mirrored(body_.posture()))},
+                                                 next, anchors);
   next += 2 * trunk_count;
   Posture posture{};
   for (const std::size_t side : {0u, 1u}) {
     posture[index(side == 0 ? Joint::left_grip : Joint::right_grip)] = anchors.grip[side];
     posture[index(side == 0 ? Joint::left_ankle : Joint::right_ankle)] = anchors.ankle[side];
   }
-  place_trunk(trunk, next, posture);
+  place_trunk(trunk, stand, next, posture);
   next += 3 * linkage_.pointers.size();
   Decoded decoded;
+  decoded.bend_rad = bend_rad;
   for (std::size_t i = 0; i < kLimbCount; ++i) {
     const Yaw turn(linkage_.limbs[i].turn * yaw);
     decoded.planes[i] = {turn({next[0], next[1], next[2]}), turn({next[3], next[4], next[5]})};
@@ -208,6 +220,16 @@ Decoded BodyLinkage::decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates
   }
   decoded.trunk = turned_trunk(posture, yaw);
   return decoded;
+}
+
+BodyLinkage::Trunk BodyLinkage::trunk_of(const std::array<Side, 2>& sides, const double* stored,
+                                         const Anchors& anchors) const {
+  const std::size_t count = sides[0].primary.coordinate_count() + 3 * kPartCount;
+  Trunk trunk = trunk_of(sides[0], stored, anchors);
+  const Trunk mirror = trunk_of(sides[1], stored + count, mirrored(anchors));
+  trunk.waist = 0.5 * (trunk.waist + Vec3(-mirror.waist.x, mirror.waist.y, mirror.waist.z));
+  for (std::size_t i = 0; i < kPartCount; ++i) trunk.turns[i] = middle_turn(trunk.turns[i], mirror.turns[i]);
+  return trunk;
 }
 
 BodyLinkage::Trunk BodyLinkage::trunk_of(const Side& side, const double* stored, const Anchors& anchors) const {
@@ -227,16 +249,18 @@ BodyLinkage::Trunk BodyLinkage::trunk_of(const Side& side, const double* stored,
   return trunk;
 }
 
-void BodyLinkage::place_trunk(const Trunk& trunk, const double* pointers, Posture& posture) const {
+void BodyLinkage::place_trunk(const Trunk& trunk, const BentStand& stand, const double* pointers,
+                              Posture& posture) const {
   std::array<Mat3, kPartCount> turns;
   const Vec3 waist = body_.at(Joint::l5s1);
   for (std::size_t i = 0; i < kPartCount; ++i) {
     const RigidSpec& part = linkage_.parts[i];
     turns[i] = glm::mat3_cast(trunk.turns[i]);
-    const auto place = [&](Joint j) { posture[index(j)] = trunk.waist + turns[i] * (body_.at(j) - waist); };
+    const auto place = [&](Joint j) { posture[index(j)] = trunk.waist + turns[i] * (stand.posture[index(j)] - waist); };
     for (const Joint j : {part.a, part.b, part.apex}) place(j);
     for (const Joint j : part.riders) place(j);
   }
+  turns[kChest] = turns[kChest] * stand.upper;
   const Mat3 object = object_frame(posture[index(Joint::left_grip)], posture[index(Joint::right_grip)]);
   for (std::size_t i = 0; i < linkage_.pointers.size(); ++i, pointers += 3) {
     const PointerSpec& pointer = linkage_.pointers[i];

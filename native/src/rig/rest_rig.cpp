@@ -96,6 +96,7 @@ RestRig::RestRig(RestBones bones, const std::map<std::string, int>& segments, co
   check_rotation(axes_, "axes");
   map_segments(segments);
   find_keyed();
+  find_back();
 }
 
 void RestRig::map_segments(const std::map<std::string, int>& segments) {
@@ -137,6 +138,30 @@ void RestRig::find_keyed() {
     slots_[b] = static_cast<int>(keyed_.size());
     keyed_.push_back(static_cast<int>(b));
   }
+}
+
+void RestRig::find_back() {
+  const auto line_to = [&](Segment segment) {  // from the spine's bone down to this one; empty where it hangs elsewhere
+    std::vector<int> line;
+    int b = bone(segment);
+    for (; b >= 0 && b != bone(Segment::spine); b = bones_.parents[static_cast<std::size_t>(b)]) line.push_back(b);
+    if (b < 0) return std::vector<int>();
+    line.push_back(b);
+    std::reverse(line.begin(), line.end());
+    return line;
+  };
+  back_ = line_to(Segment::chest);
+  for (const Segment hanging : {Segment::neck, Segment::left_clavicle, Segment::right_clavicle}) {
+    const std::vector<int> line = line_to(hanging);
+    const auto [mine, other] = std::mismatch(back_.begin(), back_.end(), line.begin(), line.end());
+    back_.erase(mine, back_.end());
+  }
+  if (back_.empty()) back_ = {bone(Segment::spine)};
+  for (std::size_t i = 0; i < back_.size(); ++i) {
+    const Vec3 next = i + 1 < back_.size() ? bones_.heads[static_cast<std::size_t>(back_[i + 1])] : at(Joint::c7t1);
+    back_pieces_.push_back(next - bones_.heads[static_cast<std::size_t>(back_[i])]);
+  }
+  back_pieces_.front() += bones_.heads[static_cast<std::size_t>(back_[0])] - at(Joint::l5s1);
 }
 
 }  // namespace reachcast

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "reachcast/body/spine.hpp"
 #include "reachcast/rig/turns.hpp"
 
 namespace reachcast {
@@ -13,12 +14,15 @@ namespace {
 constexpr double kLeastRestBend = 0.13917310096006544;  // sine of 8 degrees: a limb bent less is straight at rest
 constexpr double kAside = 0.2;                          // sine of the least angle from which a cross product is used
 
-/// Turns of every segment over time.
+/// Turns of every segment over time, and of each bone of the back.
 class SegmentTurns {
  public:
-  explicit SegmentTurns(std::size_t frames) : frames_(frames), turns_(kSegmentCount * frames) {}
+  SegmentTurns(std::size_t frames, std::size_t back) : frames_(frames), turns_((kSegmentCount + back) * frames) {}
   [[nodiscard]] std::span<Mat3> of(Segment segment) {
     return std::span(turns_).subspan(index(segment) * frames_, frames_);
+  }
+  [[nodiscard]] std::span<Mat3> of_back(std::size_t number) {
+    return std::span(turns_).subspan((kSegmentCount + number) * frames_, frames_);
   }
 
  private:
@@ -50,14 +54,36 @@ Vec3 straight_elbow(const RestRig& rest, const ArmNames& arm) {
   return unit_or_same(glm::length(axis) > kAside ? axis : glm::cross(upper, rest.up()));
 }
 
-void turn_trunk(const RestRig& rest, Postures postures, SegmentTurns& turns) {
+/// The chest at rest with its back bent: how its bones turn, and the triangle of its joints.
+struct BentChest {
+  BentBack back;
+  Mat3 triangle_rest;  ///< transposed
+};
+
+BentChest bent_chest(const RestRig& rest, double bend_rad) {
+  using enum Joint;
+  if (bend_rad == 0.0) {
+    return {{rest.at(c7t1) - rest.at(l5s1), std::vector<Mat3>(rest.back().size(), Mat3(1.0)), Mat3(1.0)},
+            glm::transpose(triangle(rest.joints(), l5s1, c7t1, right_clavicle))};
+  }
+  BentBack back = bent_back(rest.back_pieces(), rest.right(), bend_rad);
+  const Vec3 clavicle = back.end + back.upper * (rest.at(right_clavicle) - rest.at(c7t1));
+  const Mat3 frame = frame_towards(back.end, clavicle);
+  return {std::move(back), glm::transpose(frame)};
+}
+
+void turn_trunk(const RestRig& rest, Postures postures, std::span<const double> bends_rad, SegmentTurns& turns) {
   using enum Joint;
   const Mat3 pelvis_rest = glm::transpose(triangle(rest.joints(), left_hip, right_hip, l5s1));
-  const Mat3 chest_rest = glm::transpose(triangle(rest.joints(), l5s1, c7t1, right_clavicle));
   const auto pelvis = turns.of(Segment::pelvis), spine = turns.of(Segment::spine), chest = turns.of(Segment::chest);
+  BentChest bent = bent_chest(rest, 0.0);
   for (std::size_t f = 0; f < postures.size(); ++f) {
     pelvis[f] = triangle(postures[f], left_hip, right_hip, l5s1) * pelvis_rest;
-    spine[f] = chest[f] = triangle(postures[f], l5s1, c7t1, right_clavicle) * chest_rest;
+    if (!bends_rad.empty()) bent = bent_chest(rest, bends_rad[f]);
+    const Mat3 whole = triangle(postures[f], l5s1, c7t1, right_clavicle) * bent.triangle_rest;
+    for (std::size_t i = 0; i < rest.back().size(); ++i) turns.of_back(i)[f] = whole * bent.back.turns[i];
+    spine[f] = turns.of_back(0)[f];
+    chest[f] = whole * bent.back.upper;
   }
 }
 
@@ -97,6 +123,13 @@ void turn_neck_and_head(const RestRig& rest, Postures postures, SegmentTurns& tu
   }
 }
 
+/// Place of a bone among those of the back.
+std::optional<std::size_t> place_in_back(const RestRig& rest, int bone) {
+  const auto found = std::find(rest.back().begin(), rest.back().end(), bone);
+  if (found == rest.back().end()) return std::nullopt;
+  return static_cast<std::size_t>(found - rest.back().begin());
+}
+
 /// From segments to keyed bones: unmapped bones follow their parent, those above the pelvis stay at rest.
 RigPose spread(const RestRig& rest, Postures postures, SegmentTurns& turns) {
   const std::size_t frames = postures.size();
@@ -112,8 +145,11 @@ RigPose spread(const RestRig& rest, Postures postures, SegmentTurns& turns) {
     const Vec3 anchor = bone == pelvis ? rest.at(Joint::left_hip)
                         : parent < 0   ? head
                                        : rest_heads[static_cast<std::size_t>(parent)];
+    const std::optional<std::size_t> in_back = place_in_back(rest, bone);
     for (std::size_t f = 0; f < frames; ++f) {
-      if (rest.segment(bone) != RestRig::kNone) {
+      if (in_back) {
+        pose.turns[begin + f] = turns.of_back(*in_back)[f];
+      } else if (rest.segment(bone) != RestRig::kNone) {
         pose.turns[begin + f] = turns.of(static_cast<Segment>(rest.segment(bone)))[f];
       } else if (parent >= 0) {
         pose.turns[begin + f] = pose.turns[above + f];
@@ -128,8 +164,17 @@ RigPose spread(const RestRig& rest, Postures postures, SegmentTurns& turns) {
   return pose;
 }
 
-void check(Postures postures) {
+void check(Postures postures, std::span<const double> bends_rad) {
   if (postures.empty()) throw std::invalid_argument("joints has 0 frames; there must be at least 1");
+  if (!bends_rad.empty() && bends_rad.size() != postures.size()) {
+    throw std::invalid_argument("bends has " + std::to_string(bends_rad.size()) + " values; there must be none or " +
+                                std::to_string(postures.size()) + ", one per frame");
+  }
+  for (std::size_t f = 0; f < bends_rad.size(); ++f) {
+    if (bends_rad[f] >= 0.0 && bends_rad[f] <= kMostBend_rad) continue;
+    throw std::invalid_argument("bends is " + std::to_string(bends_rad[f]) + " at frame " + std::to_string(f) +
+                                "; it must lie between 0 and " + std::to_string(kMostBend_rad));
+  }
   for (std::size_t f = 0; f < postures.size(); ++f) {
     for (std::size_t j = 0; j < kJointCount; ++j) {
       if (is_finite(postures[f][j])) continue;
@@ -141,14 +186,17 @@ void check(Postures postures) {
 
 }  // namespace
 
-RigPose retarget(const RestRig& rest, Postures postures) {
-  check(postures);
-  SegmentTurns turns(postures.size());
-  turn_trunk(rest, postures, turns);
+RigPose retarget(const RestRig& rest, Postures postures, std::span<const double> bends_rad) {
+  check(postures, bends_rad);
+  SegmentTurns turns(postures.size(), rest.back().size());
+  turn_trunk(rest, postures, bends_rad, turns);
   for (const ArmNames& arm : arms()) turn_arm(rest, arm, postures, turns);
   for (const LegNames& leg : legs()) turn_leg(rest, leg, postures, turns);
   turn_neck_and_head(rest, postures, turns);
-  return spread(rest, postures, turns);
+  RigPose pose = spread(rest, postures, turns);
+  pose.is_bent =
+      rest.back().size() > 1 && std::any_of(bends_rad.begin(), bends_rad.end(), [](double b) { return b > 0.0; });
+  return pose;
 }
 
 std::vector<Posture> posed_joints(const RestRig& rest, const RigPose& pose) {
@@ -170,7 +218,8 @@ std::vector<Mat3> local_rotations(const RestRig& rest, const RigPose& pose, int 
   }
   std::vector<Mat3> local(pose.frames, Mat3(1.0));
   const int parent = rest.bones().parents[static_cast<std::size_t>(bone)];
-  if (rest.segment(bone) == RestRig::kNone) return local;  // it follows its parent, or stays where it is
+  const bool bends = pose.is_bent && place_in_back(rest, bone);
+  if (rest.segment(bone) == RestRig::kNone && !bends) return local;  // it follows its parent, or stays where it is
   const Mat3& own = rest.bones().rotations[static_cast<std::size_t>(bone)];
   const Mat3 back = glm::transpose(own);
   const Turns turns = pose.turns_of(rest.slot(bone));

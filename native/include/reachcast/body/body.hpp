@@ -40,6 +40,13 @@ class Body {
   [[nodiscard]] const Vec3& at(Joint joint) const { return posture_[index(joint)]; }
   [[nodiscard]] double stature_m() const { return stature_m_; }
 
+  /// The same body with a back that bends only at these points between l5s1 and c7t1, lowest first, standing; with none
+  /// of them it does not bend. Bodies bend everywhere unless told otherwise. Throws std::invalid_argument for a point
+  /// that is not finite.
+  [[nodiscard]] Body bending_at(const Points& points) const;
+  /// Stiff pieces of the back from l5s1 to c7t1, standing (spine.hpp); nothing where it bends everywhere.
+  [[nodiscard]] const std::optional<Points>& spine() const { return spine_; }
+
   /// Distance of two joints in the reference posture: a segment length where both belong to one segment.
   [[nodiscard]] double distance(Joint a, Joint b) const { return glm::distance(at(a), at(b)); }
 
@@ -50,9 +57,13 @@ class Body {
   Body(const Posture& posture, double stature_m) : posture_(posture), stature_m_(stature_m) {}
   Posture posture_{};
   double stature_m_ = 0.0;
+  std::optional<Points> spine_;
 };
 
 inline constexpr std::size_t kLengthCount = 12;
+
+/// The mirror image of a body.
+[[nodiscard]] Body mirrored(const Body& body);
 
 /// Names that from_lengths takes: foot, shank, thigh, pelvis_width, pelvis, trunk, clavicle, upper_arm, forearm, hand,
 /// neck, head.

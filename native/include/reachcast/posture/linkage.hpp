@@ -21,6 +21,7 @@ struct ChainSpec {
 };
 
 inline constexpr std::size_t kPartCount = 2;
+inline constexpr std::size_t kChest = 1;  ///< index into Linkage::parts
 
 /// A rigid part of which two joints are placed by a chain; one angle about the line through them places `apex`, and
 /// the riders follow. The mirror image of a part is
@@ -60,11 +61,11 @@ struct Linkage {
 };
 
 /// Two hands on one object, both feet on the floor. The 2004 paper's chains (p. 547-549) with three differences.
-/// The chest is rigid from l5s1 to the clavicle roots, as it is on a rig: the primary chain runs l5s1 ->
-/// right_clavicle, which is its first pivot, and c7t1 is the apex of the chest. Wrist and ankle are pivots before elbow
-/// and knee, so that these two hinges stand between two single links, where a limit holds by construction. Shoulders
-/// are kept relative to the chest and hands relative to the object, against which they move little; as pivots of a
-/// chain from chest to hand they swing about when the hand comes close.
+/// The chest is one part from l5s1 to the clavicle roots, whose shape depends on how the back is bent alone: the
+/// primary chain runs l5s1 -> right_clavicle, which is its first pivot, and c7t1 is the apex of the chest. Wrist and
+/// ankle are pivots before elbow and knee, so that these two hinges stand between two single links, where a limit holds
+/// by construction. Shoulders are kept relative to the chest and hands relative to the object, against which they move
+/// little; as pivots of a chain from chest to hand they swing about when the hand comes close.
 [[nodiscard]] const Linkage& two_handed_linkage();
 
 }  // namespace reachcast

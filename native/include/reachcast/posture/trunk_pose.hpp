@@ -13,10 +13,11 @@ namespace reachcast {
 
 struct TrunkPose {
   Vec3 waist{0.0};                       ///< l5s1, body frame, metres
-  std::array<Quat, kPartCount> parts{};  ///< turn of each of Linkage::parts against the body's stand
-  std::array<Vec3, 4> pointers{};        ///< Linkage::pointers that hang on a part, in that part's frame; unit length
+  std::array<Quat, kPartCount> parts{};  ///< turn of each of Linkage::parts against the body's stand, bent alike
+  std::array<Vec3, 4> pointers{};  ///< Linkage::pointers that hang on the chest, in its upper end's frame; unit length
   std::array<LimbPlane, kLimbCount> planes;
   std::array<Vec3, 2> wrist_from_grip{};
+  double bend_rad = 0.0;  ///< of the back (spine.hpp)
 };
 
 [[nodiscard]] TrunkPose trunk_pose_of(const Linkage& linkage, const Body& body, const Decoded& decoded);

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "reachcast/body/body.hpp"
+#include "reachcast/body/spine.hpp"
 #include "reachcast/posture/limb.hpp"
 #include "reachcast/posture/linkage.hpp"
 
@@ -22,14 +23,16 @@ struct Anchors {
 [[nodiscard]] Eigen::Index posture_coordinate_count(const Linkage& linkage);
 
 /// Coordinates of a posture of anyone, untwisted (twist.hpp) to face its hold point: link lengths are those of the
-/// posture itself. Logits are clamped to +-5, so that one recorded extreme does not rule a mean.
-[[nodiscard]] Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded);
+/// posture itself. Logits are clamped to +-5, so that one recorded extreme does not rule a mean. `bend_rad`: of the
+/// back (spine.hpp), which no coordinate holds.
+[[nodiscard]] Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded, double bend_rad = 0.0);
 
 /// A posture before its limbs are spanned between trunk and anchors, which is the work of hold.hpp.
 struct Decoded {
   Posture trunk{};  ///< pelvis, chest, head and shoulders stand; the other joints do not
   std::array<LimbPlane, kLimbCount> planes;
   std::array<Vec3, 2> wrist_from_grip{};  ///< left, right; as learned, before hold.hpp minds the wrists' limits
+  double bend_rad = 0.0;                  ///< of the back (spine.hpp)
 };
 
 /// A linkage on one body: its chains are built once and used for every frame.
@@ -38,9 +41,10 @@ class BodyLinkage {
   BodyLinkage(const Linkage& linkage, const Body& body);
 
   /// The trunk as its coordinates have it between left ball and right grip, with every segment's length. Where the
-  /// primary chain cannot span these two, the grip is taken at the nearest point that it can reach. Never throws for
-  /// finite input.
-  [[nodiscard]] Decoded decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted) const;
+  /// primary chain cannot span these two, the grip is taken at the nearest point that it can reach. `bend_rad`: of the
+  /// back (spine.hpp), which shortens the link from l5s1 to c7t1. Never throws for finite input.
+  [[nodiscard]] Decoded decode(const Eigen::Ref<const Eigen::VectorXd>& coordinates, const Anchors& wanted,
+                               double bend_rad = 0.0) const;
 
  private:
   /// What the primary chain needs to know of the body, or of its mirror image.
@@ -54,10 +58,13 @@ class BodyLinkage {
     Vec3 waist{0.0};
     std::array<Quat, kPartCount> turns{};  ///< of the parts, against the stand
   };
-  [[nodiscard]] Side side_of(const Body& body) const;
+  /// `straight`: the same stand with a straight back.
+  [[nodiscard]] Side side_of(const Posture& stand, const Posture& straight) const;
   [[nodiscard]] Trunk trunk_of(const Side& side, const double* stored, const Anchors& anchors) const;
+  /// Where both primary chains put the trunk, on average.
+  [[nodiscard]] Trunk trunk_of(const std::array<Side, 2>& sides, const double* stored, const Anchors& anchors) const;
   /// Pelvis, chest, and what points away from them.
-  void place_trunk(const Trunk& trunk, const double* pointers, Posture& posture) const;
+  void place_trunk(const Trunk& trunk, const BentStand& stand, const double* pointers, Posture& posture) const;
 
   Linkage linkage_;
   Body body_;

@@ -44,18 +44,25 @@ class RestRig {
   [[nodiscard]] int slot(int bone) const { return slots_[static_cast<std::size_t>(bone)]; }
   /// Bone of a segment, kNone for a toe that is not mapped.
   [[nodiscard]] int bone(Segment segment) const { return bone_of_[index(segment)]; }
+  /// The bones of the back, lowest first: from the spine's bone to the chest's, or to the one below it on which the
+  /// neck or a clavicle hangs. What is above follows the last of them.
+  [[nodiscard]] const std::vector<int>& back() const { return back_; }
+  /// From the head of each of these to the next, and at last to c7t1, which is a point of the last one.
+  [[nodiscard]] const Points& back_pieces() const { return back_pieces_; }
   /// Segment of a bone as a number, kNone for bones that are not mapped.
   [[nodiscard]] int segment(int bone) const { return segment_of_[static_cast<std::size_t>(bone)]; }
 
  private:
   void map_segments(const std::map<std::string, int>& segments);
   void find_keyed();
+  void find_back();
 
   RestBones bones_;
   Posture joints_;
   Mat3 axes_;
   std::array<int, kSegmentCount> bone_of_{};
-  std::vector<int> segment_of_, slots_, keyed_;
+  std::vector<int> segment_of_, slots_, keyed_, back_;
+  Points back_pieces_;
 };
 
 }  // namespace reachcast
