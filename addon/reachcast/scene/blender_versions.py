@@ -2,6 +2,8 @@
 """Where pictures and exports differ between the versions of Blender: names of engines and settings that came or went."""
 from __future__ import annotations
 
+from pathlib import Path
+
 import bpy
 
 _VERSION = bpy.app.version[:2]
@@ -71,8 +73,8 @@ def add_caption(scene: bpy.types.Scene, text: str, channel: int, length: int) ->
     strip = add_effect(scene, "TEXT", channel, length)
     strip.text = text
     if _LOSES_ITS_FONT:
-        strip.font = bpy.data.fonts.load(bpy.utils.system_resource("DATAFILES", path=f"fonts/{_FONT}"),
-                                         check_existing=True)
+        fonts = Path(bpy.utils.system_resource("DATAFILES", path="fonts"))
+        strip.font = bpy.data.fonts.load(str(fonts / _FONT), check_existing=True)
     if hasattr(strip, "anchor_x"):
         strip.anchor_x, strip.anchor_y, strip.alignment_x = "LEFT", "BOTTOM", "LEFT"
     else:
