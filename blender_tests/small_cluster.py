@@ -15,6 +15,7 @@ from typing import Any
 DAEMONS = ("munged", "slurmctld", "slurmd", "sbatch")
 NODE_LOST_S = 10      #: a node that does not answer for so long is down and its jobs are requeued
 REQUEUED_S = 10       #: a requeued job waits so long
+FIRST_WITHOUT_CGROUP = 23   #: Slurm that else wants /sys/fs/cgroup, which a chroot need not have; earlier ones do not
 
 CONF = """ClusterName=reachcast
 SlurmctldHost={host}(127.0.0.1)
@@ -111,7 +112,10 @@ class SmallCluster:
             variables = dict(item.split("=", 1) for item in text.split("\0") if "=" in item)
             if variables.get("SLURM_CONF") == self.environment["SLURM_CONF"] and int(folder.name) != os.getpid():
                 found[int(folder.name)] = variables
-        return found
+        for process, variables in list(found.items()):  # a step's daemon may have written its title over its own
+            if (parent := _parent(process)) not in found and _name(parent) == "slurmstepd":
+                found[parent] = variables
+        return dict(sorted(found.items()))  # who would report that another was killed is older than that one
 
     def _kill(self, is_meant: Callable[[dict[str, str]], bool]) -> None:
         ends = time.monotonic() + 20.0
@@ -143,6 +147,23 @@ class SmallCluster:
         user = subprocess.run(["id", "-un"], capture_output=True, text=True, check=True).stdout.strip()
         (self.folder / "slurm.conf").write_text(CONF.format(
             host=host, ports=ports, user=user, folder=self.folder, nodes=nodes, lost=NODE_LOST_S, requeued=REQUEUED_S))
+        if int(self.run("slurmctld", "-V").split()[-1].partition(".")[0]) >= FIRST_WITHOUT_CGROUP:
+            (self.folder / "cgroup.conf").write_text("CgroupPlugin=disabled\n")
+
+
+def _name(process: int) -> str:
+    try:
+        return Path(f"/proc/{process}/comm").read_text().strip()
+    except OSError:
+        return ""
+
+
+def _parent(process: int) -> int:
+    """0 for one that has ended."""
+    try:
+        return int(Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[1])
+    except OSError:
+        return 0
 
 
 def missing_daemons() -> list[str]:

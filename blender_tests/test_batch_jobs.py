@@ -147,6 +147,12 @@ class Jobs(unittest.TestCase):
                 self.assertRaisesRegex(JobsFailed, "exit status 3.*no display"):
             self.run_rows(ROWS, jobs=2)
 
+    def test_a_process_that_does_not_listen_is_no_end_of_this_one(self) -> None:
+        deaf = "exec <&-; echo; echo reachcast-batch-worker; exit 4"
+        with mock.patch("reachcast.batch.jobs._command", return_value=["sh", "-c", deaf]), \
+                self.assertRaisesRegex(JobsFailed, "exit status 4"):
+            self.run_rows(ROWS, jobs=2)
+
     def test_collecting_makes_nothing_and_says_what_is_missing_or_out_of_date(self) -> None:
         self.assertEqual(self.run_rows(ROWS[:4], part=(1, 2), collect=False).counts, {"done": 2})
         self.assertFalse((self.out / "results.csv").exists())

@@ -17,7 +17,7 @@ FURTHEST_CM = 60.0  #: a prediction of another person's lift; a frame that is mi
 def run(*arguments: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(["blender", "-b", "--factory-startup", "--python-exit-code", "1", "--python",
                            str(ROOT / "examples" / "evaluate_lifts.py"), "--", *arguments],
-                          capture_output=True, text=True, timeout=300)
+                          capture_output=True, text=True, timeout=900)
 
 
 @pytest.mark.skipif(not (MOCAP / "omomo").is_dir(), reason=f"recordings are missing: {MOCAP}")

@@ -28,7 +28,7 @@ def test_the_readme_leads_from_bvh_files_to_a_prediction(tmp_path: Path) -> None
     script = commands().replace("../shared/mocap", str(MOCAP)).replace("out/mine", str(out / "mine"))
     out.mkdir()
     done = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=PROJECT, capture_output=True, text=True,
-                          timeout=300, check=False)
+                          timeout=900, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "nothing is wrong" in done.stdout and "rejected" in done.stdout
     report = json.loads((out / "mine" / "report.json").read_text(encoding="utf-8"))

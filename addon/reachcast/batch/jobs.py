@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import pickle
 import queue
+import signal
 import subprocess
 import sys
 import threading
@@ -116,6 +117,8 @@ class _Pool:
     def _serve(self, slot: int, count: int) -> None:
         """One process after the other, until nothing is left to be done by anyone."""
         log = self._logs / f"{slot}.log"
+        # Blender 4.3 leaves this signal as it is: it would end when it speaks to a process that has just died.
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGPIPE})
         try:
             while not self._stopped:
                 self._one_process(log, count)

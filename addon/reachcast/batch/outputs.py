@@ -2,6 +2,8 @@
 """One solved motion as files in a folder."""
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,6 +16,7 @@ from ..scene.blender_versions import one_gltf_animation
 from ..scene.carry import carriers_of
 from ..scene.predict_action import write_solved
 from ..scene.prepare import Prepared, Solved
+from ..scene.reused_actions import ReusedActions
 from .bvh import write_bvh
 from .pictures import PICTURES, write_pictures
 from .stage import Load, Worker
@@ -30,6 +33,7 @@ class Work:
     load: Load
     solved: Solved
     frame_rate: float
+    actions: ReusedActions
 
 
 def write_outputs(work: Work, folder: Path) -> list[str]:
@@ -41,8 +45,11 @@ def write_outputs(work: Work, folder: Path) -> list[str]:
     if "bvh" in wanted:
         write_bvh(folder / "motion.bvh", work.worker.skeleton, work.solved.pose, work.frame_rate)
         files.append("motion.bvh")
-    if wanted & {"action", "gltf", *PICTURES}:
+    if wanted & {"gltf", *PICTURES}:
         files += _write_from_scene(work, folder, wanted)
+    elif "action" in wanted:
+        _write_action(work, folder / "action.blend")
+        files.append("action.blend")
     return files
 
 
@@ -74,36 +81,57 @@ def _decimal_lines(values: np.ndarray) -> bytes:
 _HEADER = (",".join(["time_s", *(f"{name}_{axis}" for name in JOINTS for axis in "xyz")]) + "\n").encode()
 
 
+def _write_action(work: Work, path: Path) -> None:
+    """The Actions of rig and box, which nobody plays."""
+    with _carriers_kept(work):
+        result = write_solved(work.prepared, work.solved, work.worker.rig, work.load.box, work.unit.id, FIRST_FRAME,
+                              bpy.context.view_layer, work.load.above, work.actions.write)
+    written = {bpy.data.actions[name] for name in (result.action, result.box_action) if name}
+    bpy.data.libraries.write(str(path), written, fake_user=True)
+
+
+@contextmanager
+def _carriers_kept(work: Work) -> Iterator[None]:
+    """Afterwards a box of the scene is carried by whom it was: the next task's Action has no channels of this one's
+    rig. A box that was made is always carried by the same."""
+    box = work.load.box
+    carriers = {constraint.name for constraint in carriers_of(box)}
+    try:
+        yield
+    finally:
+        for constraint in carriers_of(box) if isinstance(work.unit.task.object, str) else ():
+            if constraint.name not in carriers:
+                box.constraints.remove(constraint)
+
+
 def _write_from_scene(work: Work, folder: Path, wanted: set[str]) -> list[str]:
-    """What needs the Actions in Blender. Afterwards the scene is as it was: memory does not grow, and no task sees
+    """What needs the Actions on rig and box. Afterwards the scene is as it was: memory does not grow, and no task sees
     which ones came before."""
     rig, box = work.worker.rig, work.load.box
     kept = {item: item.animation_data.action if item.animation_data else None for item in (rig, box)}
-    carriers = {constraint.name for constraint in carriers_of(box)}
     written: list[Any] = []
     files = []
-    try:
-        result = write_solved(work.prepared, work.solved, rig, box, work.unit.id, FIRST_FRAME, bpy.context.view_layer,
-                              work.load.above)
-        written = [bpy.data.actions[name] for name in (result.action, result.box_action) if name]
-        if "action" in wanted:
-            bpy.data.libraries.write(str(folder / "action.blend"), set(written), fake_user=True)
-            files.append("action.blend")
-        if "gltf" in wanted:
-            _write_gltf(work, folder / "motion.glb")
-            files.append("motion.glb")
-        if wanted & PICTURES:
-            files += write_pictures(work.unit.task, work.prepared, work.solved, work.worker, work.load, FIRST_FRAME,
-                                    work.frame_rate, folder)
-    finally:
-        for item, action in kept.items():
-            if item.animation_data:
-                item.animation_data.action = action
-        for action in written:
-            bpy.data.actions.remove(action)
-        for constraint in carriers_of(box):
-            if constraint.name not in carriers:  # the next task's Action has no channels of this one's rig
-                box.constraints.remove(constraint)
+    work.actions.close()  # an exporter takes every Action that fits the rig
+    with _carriers_kept(work):
+        try:
+            result = write_solved(work.prepared, work.solved, rig, box, work.unit.id, FIRST_FRAME,
+                                  bpy.context.view_layer, work.load.above)
+            written = [bpy.data.actions[name] for name in (result.action, result.box_action) if name]
+            if "action" in wanted:
+                bpy.data.libraries.write(str(folder / "action.blend"), set(written), fake_user=True)
+                files.append("action.blend")
+            if "gltf" in wanted:
+                _write_gltf(work, folder / "motion.glb")
+                files.append("motion.glb")
+            if wanted & PICTURES:
+                files += write_pictures(work.unit.task, work.prepared, work.solved, work.worker, work.load, FIRST_FRAME,
+                                        work.frame_rate, folder)
+        finally:
+            for item, action in kept.items():
+                if item.animation_data:
+                    item.animation_data.action = action
+            for action in written:
+                bpy.data.actions.remove(action)
     return files
 
 

@@ -18,6 +18,7 @@ from ..scene.mannequin import build_mannequin, dress_mannequin, remove_with_mesh
 from ..scene.prepare import Prepared, refuse_owners
 from ..scene.read_rig import read_rig
 from ..scene.read_task import BOX_MASS, BoxShape, lift_between, read_box, standing
+from ..scene.reused_actions import ReusedActions
 from ..scene.transforms import Placement, above_matrix, placement
 from .tasks import Task, Unit
 
@@ -54,6 +55,7 @@ class Stage:
     def __init__(self, corpus: Any) -> None:
         self.corpus, self.scene = corpus, bpy.context.scene
         self.frame_rate = self.scene.render.fps / self.scene.render.fps_base
+        self.actions = ReusedActions()
         self._workers: dict[Person, Worker] = {}
         self._loads: dict[tuple[Person, object, float | None], Load] = {}
         self._checked: set[tuple[str, str]] = set()
@@ -84,6 +86,7 @@ class Stage:
         for person in {key[0] for key in self._loads}:
             self._drop_loads(person)
         self._drop_made()
+        self.actions.close()
 
     def _show_only(self, worker: Worker, load: Load) -> None:
         """Of what was made for tasks, pictures have only this."""
@@ -141,13 +144,16 @@ class Stage:
     def _drop_made(self) -> None:
         for person in [person for person in self._workers if person[0] is None]:
             self._drop_loads(person)
-            remove_made(self._workers.pop(person).rig)
+            rig = self._workers.pop(person).rig
+            self.actions.forget(rig)
+            remove_made(rig)
 
     def _drop_loads(self, person: Person) -> None:
         """A box that was made goes with its worker: the order of objects in the scene is the same for every task."""
         for key in [key for key in self._loads if key[0] == person]:
             load = self._loads.pop(key)
             if not isinstance(key[1], str):
+                self.actions.forget(load.box)
                 remove_made(load.box)
 
     def _placed(self, place: tuple[float, ...] | str, skeleton: Skeleton) -> Placement:

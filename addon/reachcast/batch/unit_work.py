@@ -32,7 +32,8 @@ def work(store: Store, stage: Stage, unit: Unit, checksum: str) -> Seconds:
         prepared, worker, load = stage.prepared(unit)
         solved = solve(prepared)
         predicted = time.perf_counter()
-        files = write_outputs(Work(unit, prepared, worker, load, solved, stage.frame_rate), draft)
+        files = write_outputs(Work(unit, prepared, worker, load, solved, stage.frame_rate, stage.actions),
+                              draft)
         if empty := [name for name in files if not (draft / name).stat().st_size]:
             raise OSError(errno.ENOSPC if shutil.disk_usage(draft).free == 0 else errno.EIO, f"{empty[0]} is empty")
         result.update(_facts(solved, stage.frame_rate), status="done", files=" ".join(files))

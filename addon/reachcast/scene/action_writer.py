@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one file that writes F-curves: numbers over frames become a new Action, in bulk, and nothing is overwritten.
+"""The one file that makes F-curves: numbers over frames become a new Action, in bulk, and nothing is overwritten.
 
 It is also the only file that knows that an Action has slots and channel bags from Blender 4.4 on.
 """
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import bpy
@@ -19,7 +19,7 @@ from ..rigs.rotations import Array
 _KEY_STYLE = (("interpolation", "LINEAR"), ("handle_left_type", "AUTO_CLAMPED"), ("handle_right_type", "AUTO_CLAMPED"))
 _STEP_STYLE = (("interpolation", "CONSTANT"), *_KEY_STYLE[1:])
 #: By whether keys are steps: what new keys do not have by themselves.
-_Styles = dict[bool, list[tuple[str, str]]]
+Styles = dict[bool, list[tuple[str, str]]]
 
 
 @dataclass(frozen=True)
@@ -36,21 +36,33 @@ class Channel:
     steps: tuple[int, ...] | None = None
 
 
+#: Writes channels as an Action for an object: owner, name, channels, first frame.
+WriteAction = Callable[[bpy.types.Object, str, Sequence[Channel], int], bpy.types.Action]
+
+
 def write_action(owner: bpy.types.Object, name: str, channels: Sequence[Channel], first_frame: int) -> bpy.types.Action:
     """A new Action with these channels, made the active one of `owner`. The Action it replaces is kept in the file."""
-    action = bpy.data.actions.new(name)
+    action, _ = new_action(owner, name, channels, first_frame)
     if owner.animation_data is None:
         owner.animation_data_create()
+    _assign(owner, action)
+    return action
+
+
+def new_action(owner: bpy.types.Object, name: str, channels: Sequence[Channel],
+               first_frame: int) -> tuple[bpy.types.Action, list[bpy.types.FCurve]]:
+    """With its F-curves in the order of the channels. It is not assigned."""
+    action, made = bpy.data.actions.new(name), []
     curves, group_of = _curve_makers(owner, action)
-    unlike: _Styles = {}
-    for channel, columns in _keys(channels, first_frame):
+    unlike: Styles = {}
+    for channel, columns in keys_of(channels, first_frame):
         group = group_of(channel.group)
         for index, keys in enumerate(columns):
             curve = curves.new(channel.data_path, index=index)
             curve.group = group
             _fill(curve, keys, channel.steps is not None, unlike)
-    _assign(owner, action)
-    return action
+            made.append(curve)
+    return action, made
 
 
 def _assign(owner: bpy.types.Object, action: bpy.types.Action) -> None:
@@ -66,8 +78,8 @@ def _assign(owner: bpy.types.Object, action: bpy.types.Action) -> None:
 def rewrite_action(action: bpy.types.Action, channels: Sequence[Channel], first_frame: int) -> None:
     """Other keys for the channels that `write_action` gave this Action; everything else in it stays."""
     curves = {(curve.data_path, curve.array_index): curve for curve in curves_of(action)}
-    unlike: _Styles = {}
-    for channel, columns in _keys(channels, first_frame):
+    unlike: Styles = {}
+    for channel, columns in keys_of(channels, first_frame):
         for index, keys in enumerate(columns):
             curve = curves.get((channel.data_path, index))
             if curve is None:
@@ -81,7 +93,7 @@ def rewrite_action(action: bpy.types.Action, channels: Sequence[Channel], first_
     action.update_tag()
 
 
-def _keys(channels: Sequence[Channel], first_frame: int) -> Iterator[tuple[Channel, list[Array]]]:
+def keys_of(channels: Sequence[Channel], first_frame: int) -> Iterator[tuple[Channel, list[Array]]]:
     """For every channel its columns as frame, value, frame, value, ...: one key for what does not change."""
     alike: dict[tuple[object, int], list[int]] = {}  # a rig has a hundred columns: numpy is called for all at once
     for number, channel in enumerate(channels):
@@ -121,9 +133,13 @@ def curves_of(action: bpy.types.Action) -> Iterator[bpy.types.FCurve]:
     return (curve for bag in bags for curve in bag.fcurves if not curve.mute)
 
 
-def _fill(curve: bpy.types.FCurve, keys: Array, stepped: bool, unlike: _Styles) -> None:
-    """unlike: what has been found in other curves of the same call: an Action has a hundred."""
-    points, count = curve.keyframe_points, len(keys) // 2
+def _fill(curve: bpy.types.FCurve, keys: Array, stepped: bool, unlike: Styles) -> None:
+    add_keys(curve.keyframe_points, len(keys) // 2, stepped, unlike)
+    _place(curve, keys)
+
+
+def add_keys(points: bpy.types.bpy_prop_collection, count: int, stepped: bool, unlike: Styles) -> None:
+    """To a curve without keys. unlike: what has been found in other curves of the same call: an Action has a hundred."""
     points.add(count)
     if stepped not in unlike:  # new keys have the style of the user's preferences
         first = points[0]
@@ -131,7 +147,6 @@ def _fill(curve: bpy.types.FCurve, keys: Array, stepped: bool, unlike: _Styles) 
                            if getattr(first, style[0]) != style[1]]
     for attribute, identifier in unlike[stepped]:
         points.foreach_set(attribute, _enum_values(attribute, identifier, count))
-    _place(curve, keys)
 
 
 def _place(curve: bpy.types.FCurve, keys: Array) -> None:
@@ -146,6 +161,8 @@ def _curve_makers(owner: bpy.types.Object, action: bpy.types.Action):  # type: i
         slot = action.slots.new(id_type="OBJECT", name=owner.name)
         strip = action.layers.new("Layer").strips.new(type="KEYFRAME")
         bag = strip.channelbag(slot, ensure=True)
+    else:
+        action.id_root = "OBJECT"  # which it otherwise is from the first time that it is assigned
 
     def group_of(name: str) -> bpy.types.ActionGroup:
         return bag.groups.get(name) or bag.groups.new(name)

@@ -15,7 +15,7 @@ from mathutils import Matrix
 from ..rigs.bone_map import GripPlace
 from ..rigs.rotations import Array
 from ..rigs.skeleton import Skeleton
-from .action_writer import Channel, write_action
+from .action_writer import Channel, WriteAction, write_action
 from .movers import HOLD, is_carrier
 from .prepare import Prepared, Solved
 from .read_task import Lift
@@ -27,7 +27,7 @@ _SHOWN_M = 0.05   #: size of a hold that is made visible
 
 def write_box_action(prepared: Prepared, solved: Solved, rig: bpy.types.Object, box: bpy.types.Object, name: str,
                      first: int, layer: bpy.types.ViewLayer, aside: Array | None = None,
-                     above: Array | None = None) -> bpy.types.Action:
+                     above: Array | None = None, write: WriteAction = write_action) -> bpy.types.Action:
     """A new Action on `box`, carried by `rig` from every grasp to the release after it; first key at frame `first`.
 
     aside: (3,) metres in the world by which all places are moved. above: (4, 4) `above_matrix` of the box where it is
@@ -35,7 +35,7 @@ def write_box_action(prepared: Prepared, solved: Solved, rig: bpy.types.Object, 
     """
     above = above_matrix(box, layer) if above is None else above
     ready_carrier(box, rig, prepared.skeleton)
-    return write_action(box, name, carried_channels(box, rig, above, prepared.lift, solved, aside), first)
+    return write(box, name, carried_channels(box, rig, above, prepared.lift, solved, aside), first)
 
 
 def carried_channels(box: bpy.types.Object, rig: bpy.types.Object, above: Array, lift: Lift, solved: Solved,

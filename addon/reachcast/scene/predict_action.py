@@ -13,6 +13,7 @@ import bpy
 
 from ..rigs.bone_map import BoneMap
 from ..rigs.rotations import Array
+from .action_writer import WriteAction, write_action
 from .carry import write_box_action
 from .movers import CARRIED, PREDICTED
 from .prepare import Prepared, Solved, prepare, solve
@@ -85,14 +86,15 @@ def predict_motion(rig: bpy.types.Object, shelf: bpy.types.Object, *, corpus: ob
 
 
 def write_solved(prepared: Prepared, solved: Solved, rig: bpy.types.Object, box: bpy.types.Object | None, what: str,
-                 first: int, layer: bpy.types.ViewLayer, above: Array | None = None) -> PredictionResult:
+                 first: int, layer: bpy.types.ViewLayer, above: Array | None = None,
+                 write: WriteAction = write_action) -> PredictionResult:
     """New Actions on rig and box, named after them and `what`, whose first key stands at frame `first`.
 
-    above: (4, 4) `transforms.above_matrix` of the box where it is known.
+    above: (4, 4) `transforms.above_matrix` of the box where it is known. write: what makes an Action of channels.
     """
-    action = write_rig_action(rig, prepared.skeleton, solved.pose, f"{rig.name} {what}", first)
-    box_action = write_box_action(prepared, solved, rig, box, f"{box.name} {what}", first, layer,
-                                  above=above) if box else None
+    action = write_rig_action(rig, prepared.skeleton, solved.pose, f"{rig.name} {what}", first, write)
+    box_action = write_box_action(prepared, solved, rig, box, f"{box.name} {what}", first, layer, above=above,
+                                  write=write) if box else None
     return describe(solved, rig.name, action, box_action, first)
 
 

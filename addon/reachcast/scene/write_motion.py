@@ -12,17 +12,17 @@ from mathutils import Vector
 from .. import native
 from ..rigs.rotations import Array, from_quaternion, turn
 from ..rigs.skeleton import Skeleton
-from .action_writer import Channel, write_action
+from .action_writer import Channel, WriteAction, write_action
 from .control_rig import control_channels, is_control_rig
 
 _NOWHERE, _UNSCALED = Vector((0.0, 0.0, 0.0)), Vector((1.0, 1.0, 1.0))
 _ROTATION_PATHS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
 
 
-def write_rig_action(rig: bpy.types.Object, skeleton: Skeleton, pose: Any, name: str,
-                     first_frame: int) -> bpy.types.Action:
+def write_rig_action(rig: bpy.types.Object, skeleton: Skeleton, pose: Any, name: str, first_frame: int,
+                     write: WriteAction = write_action) -> bpy.types.Action:
     """A new Action on `rig` of a reachcast_core.RigPose: see `rig_channels`."""
-    return write_action(rig, name, rig_channels(rig, skeleton, pose), first_frame)
+    return write(rig, name, rig_channels(rig, skeleton, pose), first_frame)
 
 
 def rig_channels(rig: bpy.types.Object, skeleton: Skeleton, pose: Any) -> list[Channel]:
