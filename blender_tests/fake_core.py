@@ -35,6 +35,9 @@ class Body:
     def from_posture(posture: Any, stature: float) -> Body:
         return Body(np.array(posture, dtype=float), stature)
 
+    def bending_at(self, points: Any) -> Body:
+        return self
+
     @staticmethod
     def from_stature(stature: float, sex: str | None = None) -> Body:
         posture = np.empty((len(JOINTS), 3))
@@ -107,6 +110,10 @@ class Motion:
     outside_reasons: list[str] = field(default_factory=list)
     corrections: list[str] = field(default_factory=list)
     ways: list[str] = field(default_factory=lambda: ["deviation"])
+
+    @property
+    def bends(self) -> np.ndarray:
+        return np.zeros(len(self.times))
 
 
 def predict(corpus: Corpus, subject: Subject, task: Task, body: Body | None = None, *, frame_rate: float = 24.0,

@@ -112,7 +112,10 @@ class SmallCluster:
             variables = dict(item.split("=", 1) for item in text.split("\0") if "=" in item)
             if variables.get("SLURM_CONF") == self.environment["SLURM_CONF"] and int(folder.name) != os.getpid():
                 found[int(folder.name)] = variables
-        return found
+        for process, variables in list(found.items()):  # a step's daemon may have written its title over its own
+            if (parent := _parent(process)) not in found and _name(parent) == "slurmstepd":
+                found[parent] = variables
+        return dict(sorted(found.items()))  # who would report that another was killed is older than that one
 
     def _kill(self, is_meant: Callable[[dict[str, str]], bool]) -> None:
         ends = time.monotonic() + 20.0
@@ -146,6 +149,21 @@ class SmallCluster:
             host=host, ports=ports, user=user, folder=self.folder, nodes=nodes, lost=NODE_LOST_S, requeued=REQUEUED_S))
         if int(self.run("slurmctld", "-V").split()[-1].partition(".")[0]) >= FIRST_WITHOUT_CGROUP:
             (self.folder / "cgroup.conf").write_text("CgroupPlugin=disabled\n")
+
+
+def _name(process: int) -> str:
+    try:
+        return Path(f"/proc/{process}/comm").read_text().strip()
+    except OSError:
+        return ""
+
+
+def _parent(process: int) -> int:
+    """0 for one that has ended."""
+    try:
+        return int(Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[1])
+    except OSError:
+        return 0
 
 
 def missing_daemons() -> list[str]:

@@ -93,6 +93,19 @@ class Pictures(unittest.TestCase):
                 found += [tuple(shown.matrix_world @ vertex.co) for vertex in list(shown.data.vertices)[::7]]
         return np.array(found)
 
+    def test_captions_are_there_however_often_factory_settings_were_read(self) -> None:
+        for _ in range(2):
+            bpy.ops.wm.read_factory_settings(use_empty=True)
+            image = bpy.data.images.new("grey", 120, 60)
+            image.filepath_raw, image.file_format = os.fspath(self.folder / "grey.png"), "PNG"
+            image.save()
+            write_contact_sheet([Moment(0, "on the way")], {0: self.folder / "grey.png"}, (120, 60),
+                                self.folder / "sheet.png")
+            beneath = pixels(self.folder / "sheet.png")[GAP + 60 + 1:]
+            self.assertLess(beneath.min(), 0.5)           # ink
+            self.assertGreater(np.median(beneath), 0.9)   # on paper
+            self.assertFalse(bpy.data.fonts)
+
     def test_a_sheet_is_the_same_whatever_the_scenes_frame(self) -> None:
         folder = self.folder
         image = bpy.data.images.new("grey", 40, 30)

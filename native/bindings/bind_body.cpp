@@ -84,6 +84,15 @@ void bind_body(py::module_& m) {
           "posture: (27, 3), the JOINTS of an upright stand in the body frame, as measured on a rig.")
       .def_property_readonly(
           "posture", [](const Body& body) { return points_array(body.posture()); }, "(27, 3), body frame, metres")
+      .def(
+          "bending_at",
+          [](const Body& body, const DoubleArray& points) {
+            require_shape(points, "points", {kAnySize, 3});
+            return body.bending_at(to_points(points, "points"));
+          },
+          py::arg("points"),
+          "The same body with a back that bends only at these points (n, 3) between l5s1 and c7t1, lowest first, "
+          "standing; with none of them it does not bend. A body bends everywhere unless told otherwise.")
       .def_property_readonly("stature", &Body::stature_m)
       .def_property_readonly("lengths", &Body::lengths, "dict of segment lengths, metres; left and right averaged")
       .def("__repr__", [](const Body& body) { return "Body(stature=" + std::to_string(body.stature_m()) + ")"; });

@@ -235,6 +235,12 @@ void bind_results(py::module_& m) {
       .def_property_readonly("positions", &positions, "(F, 27, 3), metres, body frame")
       .def_property_readonly(
           "times", [](const Motion& motion) { return numbers_array(motion.times_s); }, "(F,), seconds")
+      .def_property_readonly(
+          "bends",
+          [](const Motion& motion) {
+            return py::array_t<double>(py::ssize_t(motion.bends_rad.size()), motion.bends_rad.data());
+          },
+          "(F,), radians: how far the back is bent between l5s1 and c7t1; a rig's bones share it, see RestRig.retarget")
       .def_property_readonly("box_positions", &box_positions, "(F, 3), origin of the box")
       .def_property_readonly("box_quaternions", &box_quaternions, "(F, 4), w, x, y, z")
       .def_property_readonly(

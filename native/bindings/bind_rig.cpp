@@ -55,7 +55,7 @@ std::shared_ptr<RestRig> make_rest_rig(std::vector<int> parents, const DoubleArr
       to_posture(joints, "joints"), to_axes(axes));
 }
 
-PosedRig pose_rig(std::shared_ptr<const RestRig> rest, const DoubleArray& joints) {
+PosedRig pose_rig(std::shared_ptr<const RestRig> rest, const DoubleArray& joints, const std::vector<double>& bends) {
   require_shape(joints, "joints", {kAnySize, kJoints, 3});
   require_finite(joints, "joints");
   std::vector<Posture> postures(static_cast<std::size_t>(joints.shape(0)));
@@ -63,8 +63,16 @@ PosedRig pose_rig(std::shared_ptr<const RestRig> rest, const DoubleArray& joints
     std::memcpy(static_cast<void*>(postures.data()), joints.data(), postures.size() * sizeof(Posture));
   }
   const py::gil_scoped_release without_gil;
-  RigPose pose = retarget(*rest, postures);
+  RigPose pose = retarget(*rest, postures, bends);
   return {std::move(rest), std::move(pose)};
+}
+
+/// Heads of the bones of the back but the first.
+Points back_joints(const RestRig& rest) {
+  Points heads;
+  for (const int bone : rest.back()) heads.push_back(rest.bones().heads[static_cast<std::size_t>(bone)]);
+  heads.erase(heads.begin());
+  return heads;
 }
 
 py::array_t<double> turns_array(const PosedRig& posed) {
@@ -142,10 +150,18 @@ void bind_rig(py::module_& m) {
           "indices of the bones that get keys: the mapped ones and all above them, parents first")
       .def(
           "retarget",
-          [](std::shared_ptr<RestRig> rest, const DoubleArray& joints) { return pose_rig(std::move(rest), joints); },
-          py::arg("joints"),
-          "joints (F, 27, 3), world, of a body with this rig's own measures -> RigPose. ValueError when F is 0 or a "
-          "number is not finite.")
+          [](std::shared_ptr<RestRig> rest, const DoubleArray& joints, const std::vector<double>& bends) {
+            return pose_rig(std::move(rest), joints, bends);
+          },
+          py::arg("joints"), py::arg("bends") = std::vector<double>(),
+          "joints (F, 27, 3), world, of a body with this rig's own measures -> RigPose. bends (F,): how far the back "
+          "is "
+          "bent, radians, which the bones of the back share evenly; none for a straight one. ValueError when F is 0, "
+          "for another number of bends, or when a number is not finite.")
+      .def_property_readonly(
+          "back_joints", [](const RestRig& rest) { return points_array(back_joints(rest)); },
+          "(n - 1, 3), world: where the n bones between spine and chest meet, at which the back bends; see "
+          "Body.bending_at")
       .def("__repr__", [](const RestRig& rest) {
         return "RestRig(" + std::to_string(rest.bones().parents.size()) + " bones, " +
                std::to_string(rest.keyed().size()) + " keyed)";

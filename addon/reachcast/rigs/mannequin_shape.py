@@ -69,13 +69,14 @@ def skeleton(posture: Posture, stature: float) -> tuple[Bone, ...]:
     points = figure_points(posture)
     hips = 0.5 * (points["left_hip"] + points["right_hip"])
     l5s1, c7t1 = points["l5s1"], points["c7t1"]
-    middle = l5s1 + tables.SPINE_BREAK * (c7t1 - l5s1)
+    ribs, chest = (l5s1 + start * (c7t1 - l5s1) for start in (tables.RIBS_START, tables.CHEST_START))
     skull = points["tragion"]
     crown = np.array([skull[0], skull[1], stature])
     trunk = (
         Bone("hips", None, hips, l5s1, FORWARD),
-        Bone("spine", "hips", l5s1, middle, FORWARD, True),
-        Bone("chest", "spine", middle, c7t1, FORWARD, True),
+        Bone("spine", "hips", l5s1, ribs, FORWARD, True),
+        Bone("ribs", "spine", ribs, chest, FORWARD, True),
+        Bone("chest", "ribs", chest, c7t1, FORWARD, True),
         Bone("neck", "chest", c7t1, skull, FORWARD, True),
         Bone("head", "neck", skull, crown, FORWARD, True),
     )

@@ -75,11 +75,16 @@ LOFTS = (
         (0.090, 66, 66, 44, 44, 2.3, 0, 0),
         (0.260, 70, 70, 50, 42, 2.2, 0, 0),
         (0.380, 69, 69, 51, 42, 2.2, 0, 0),
-        (0.540, 74, 74, 55, 47, 2.2, 0, 0),
-        (0.680, 66, 66, 50, 46, 2.2, 0, 0)), 28),
-    Loft("chest", "trunk", BODY, (9, 2), (
+        (0.480, 70, 70, 52, 43, 2.2, 0, 0),
+        (0.560, 62, 62, 46, 40, 2.2, 0, 0)), 28),
+    # the ribs slide under the chest when the back bends
+    Loft("ribs", "trunk", BODY, (9, 16), (
         (0.420, 77, 77, 57, 50, 2.3, 0, 0, 34),
         (0.530, 84, 84, 64, 57, 2.3, 0, 0, 16),
+        (0.640, 87, 87, 66, 59, 2.3, 0, 0),
+        (0.740, 82, 82, 60, 58, 2.3, 0, -2)), 28),
+    Loft("chest", "trunk", BODY, (7, 2), (
+        (0.610, 88, 88, 68, 60, 2.4, 0, 0, 14),
         (0.700, 92, 92, 70, 64, 2.4, 0, 0),
         (0.820, 96, 96, 66, 68, 2.4, 0, -4),
         (0.930, 94, 94, 51, 68, 2.3, 0, -10),
@@ -195,7 +200,7 @@ BALLS = (
 
 # Multiples of the extents across and in depth, by sex and segment. The tables above are the male figure.
 FEMALE = {
-    "hips": (0.98, 0.98), "spine": (0.89, 0.93), "chest": (1.01, 0.95), "neck": (0.84, 0.88), "head": (0.98, 0.98),
+    "hips": (0.98, 0.98), "spine": (0.89, 0.93), "ribs": (0.98, 0.94), "chest": (1.01, 0.95), "neck": (0.84, 0.88), "head": (0.98, 0.98),
     "shoulder": (0.86, 0.86), "upper_arm": (0.87, 0.88), "forearm": (0.87, 0.88), "hand": (0.90, 0.90),
     "thigh": (1.02, 1.02), "shin": (0.96, 0.97), "foot": (0.93, 0.95), "toe": (0.93, 0.95),
 }
@@ -203,9 +208,9 @@ FEMALE = {
 # Skeleton lengths that no joint centre tells, in statures.
 CHIN_HEIGHT = 0.870
 NASION_HEIGHT = 0.934
-SPINE_BREAK = 0.55  # where spine becomes chest, between l5s1 and c7t1
+RIBS_START, CHEST_START = 0.28, 0.55  # of the way from l5s1, where the spine starts, to c7t1
 TOE_LENGTH = 0.042
 HAND_LENGTH = 0.108
 
 # Joints whose half distance widens a segment, and the distance in statures that the tables were drawn for.
-JOINT_WIDTHS = {"hips": ("hip", 0.050), "chest": ("shoulder", 0.107)}
+JOINT_WIDTHS = {"hips": ("hip", 0.050), "ribs": ("shoulder", 0.107), "chest": ("shoulder", 0.107)}

@@ -2,12 +2,19 @@
 """Where pictures and exports differ between the versions of Blender: names of engines and settings that came or went."""
 from __future__ import annotations
 
+from pathlib import Path
+
 import bpy
 
 _VERSION = bpy.app.version[:2]
 #: 4.2 replaced EEVEE: its settings of shadows, occlusion and light probes are gone since. 4.2 to 4.5 call it by a name
 #: of its own.
 _FIRST_EEVEE = _VERSION < (4, 2)
+
+#: 5.2 draws the font that strips of text have by themselves as nothing once factory settings were read a second time,
+#: but not one that is loaded from a file: its own is.
+_LOSES_ITS_FONT = _VERSION >= (5, 0)
+_FONT = "Inter.woff2"
 
 #: Engines as tasks call them -> as Blender does.
 ENGINES = {"EEVEE": "BLENDER_EEVEE_NEXT" if (4, 2) <= _VERSION < (5, 0) else "BLENDER_EEVEE",
@@ -65,6 +72,9 @@ def add_caption(scene: bpy.types.Scene, text: str, channel: int, length: int) ->
     """A strip of text that begins at frame 1 and whose place is that of its lower left corner."""
     strip = add_effect(scene, "TEXT", channel, length)
     strip.text = text
+    if _LOSES_ITS_FONT:
+        fonts = Path(bpy.utils.system_resource("DATAFILES", path="fonts"))
+        strip.font = bpy.data.fonts.load(str(fonts / _FONT), check_existing=True)
     if hasattr(strip, "anchor_x"):
         strip.anchor_x, strip.anchor_y, strip.alignment_x = "LEFT", "BOTTOM", "LEFT"
     else:

@@ -112,7 +112,7 @@ def _add_panel(scene: bpy.types.Scene, picture: Path, channel: int, scale: float
 @contextmanager
 def _sequence(size: tuple[int, int]) -> Iterator[bpy.types.Scene]:
     """A scene for the sequencer alone, which shows pictures as they are."""
-    scene = bpy.data.scenes.new("Film")
+    scene, fonts = bpy.data.scenes.new("Film"), set(bpy.data.fonts.keys())
     try:
         scene.view_settings.view_transform, scene.view_settings.look = "Standard", "None"
         render = scene.render
@@ -125,3 +125,4 @@ def _sequence(size: tuple[int, int]) -> Iterator[bpy.types.Scene]:
         yield scene
     finally:
         bpy.data.scenes.remove(scene)
+        bpy.data.batch_remove([font for font in bpy.data.fonts if font.name not in fonts])

@@ -19,7 +19,7 @@ from ..rigs import mannequin_shape as shape
 from ..rigs.mannequin_tables import MATERIALS
 
 GROUPS = {
-    "Trunk": ("hips", "spine", "chest", "neck", "head"),
+    "Trunk": ("hips", "spine", "ribs", "chest", "neck", "head"),
     "Arm.L": ("shoulder.L", "upper_arm.L", "forearm.L", "hand.L"),
     "Arm.R": ("shoulder.R", "upper_arm.R", "forearm.R", "hand.R"),
     "Leg.L": ("thigh.L", "shin.L", "foot.L", "toe.L"),

@@ -16,7 +16,7 @@ from .. import native
 from ..corpora import default_corpus, opened_corpus
 from ..rigs.bone_map import BoneMap
 from ..rigs.joints import INDEX, JOINTS
-from ..rigs.retarget import EXACT_JOINTS, retarget
+from ..rigs.retarget import EXACT_JOINTS, body_of, retarget
 from ..rigs.rotations import Array
 from ..rigs.skeleton import Skeleton
 from .action_writer import refuse_unwritable
@@ -89,7 +89,7 @@ def solve(prepared: Prepared, **options: object) -> Solved:
     skeleton, lift = prepared.skeleton, prepared.lift
     motion = _predict(native.core(), prepared, {**prepared.options, **options})
     joints = skeleton.to_world(np.asarray(motion.positions, float))
-    pose = retarget(skeleton, joints)
+    pose = retarget(skeleton, joints, np.asarray(motion.bends))
     places = box_world_places(skeleton, np.asarray(motion.box_positions), np.asarray(motion.box_quaternions))
     reached = pose.joints()
     return Solved(motion, pose, joints, reached, places, _errors(skeleton, lift, motion, reached, joints, places),
@@ -136,9 +136,8 @@ def _predict(core: ModuleType, prepared: Prepared, options: Mapping[str, object]
                      core.Box(box.width, box.depth, box.height, box.handle_height, mass=box.mass,
                               grip_distance=box.grip_distance),
                      home_yaw=lift.home_yaw, target_yaw=lift.target_yaw, hands=lift.hands)
-    body = core.Body.from_posture(skeleton.to_body(skeleton.joints), skeleton.height)
     try:
-        return core.predict(prepared.corpus, prepared.subject, task, body, **options)
+        return core.predict(prepared.corpus, prepared.subject, task, body_of(skeleton), **options)
     except RuntimeError as error:  # what the native module says of a damaged or busy file, in one sentence
         raise ValueError(str(error)) from error
     except TypeError as error:

@@ -111,6 +111,7 @@ std::size_t carried_frames(const Plan& plan) {
 std::optional<Failure> perform(const Performance& performance, double frame_rate, Motion& motion) {
   motion.box.clear();
   motion.postures.clear();
+  motion.bends_rad.clear();
   motion.times_s.clear();
   motion.box.reserve(motion.plan.end + 1);
   motion.postures.reserve(motion.plan.end + 1);
@@ -124,6 +125,7 @@ std::optional<Failure> perform(const Performance& performance, double frame_rate
     motion.times_s.push_back(moment / frame_rate);
     motion.box.push_back(performance.object(moment));
     motion.postures.push_back(performance.posture(moment, motion.box.back(), tracks, report));
+    motion.bends_rad.push_back(tracks.learned.at(motion.times_s.back()).bend_rad);
     if (report.shortfall_m > 0.0 && (!worst || is_worse(motion.plan, {frame, report}, *worst)))
       worst = Failure{frame, report};
     trunk.amount_m = std::max(trunk.amount_m, report.trunk_shift_m);

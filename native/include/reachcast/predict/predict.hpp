@@ -59,6 +59,7 @@ struct Correction {
 
 struct Motion {
   std::vector<Posture> postures;  ///< body frame
+  std::vector<double> bends_rad;  ///< of the back (spine.hpp), one per posture
   std::vector<BoxPose> box;       ///< body frame, one per posture
   std::vector<double> times_s;    ///< frame / frame_rate
   Plan plan;
