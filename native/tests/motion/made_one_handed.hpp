@@ -30,10 +30,8 @@ inline Posture right_handed_posture(const Body& body, const Vec3& hold, double s
   return p;
 }
 
-/// The working hand goes smoothly from `home` to `target`; 31 postures over a second. Places of the left hand are those
-/// of the mirror image.
+/// The right hand goes smoothly from `home` to `target`, or the left one as its mirror image; 31 postures over a second.
 inline Reach made_one_handed(double stature, const Vec3& home, const Vec3& target, Hands hands) {
-  const auto side = [&](const Vec3& place) { return hands == Hands::left ? place * Vec3(-1, 1, 1) : place; };
   const Body body = Body::from_stature(stature);
   Reach reach;
   reach.subject.stature_m = stature;
@@ -43,8 +41,7 @@ inline Reach made_one_handed(double stature, const Vec3& home, const Vec3& targe
   reach.duration_s = 1.0;
   for (int f = 0; f <= 30; ++f) {
     const double share = smooth_step(f / 30.0);
-    const Vec3 hold = side(home) + share * (side(target) - side(home));
-    const Posture posture = right_handed_posture(body, hold, 0.1 - 0.25 * share);
+    const Posture posture = right_handed_posture(body, home + share * (target - home), 0.1 - 0.25 * share);
     reach.postures.push_back(hands == Hands::left ? mirrored(posture) : posture);
   }
   return reach;

@@ -12,7 +12,7 @@ namespace {
 using namespace tests;
 
 const Subject kPerson{1.75, {}, {}, {}};
-const Vec3 kRest(0.25, 0.08, 0.74), kCounter(0.25, 0.40, 0.95), kTop(0.32, 0.40, 1.3), kInHand(0.0, 0.0, -0.06);
+const Vec3 kRest(0.25, 0.08, 0.88), kCounter(0.25, 0.36, 1.0), kTop(0.32, 0.38, 1.3), kInHand(0.0, 0.0, -0.06);
 
 /// Reach, transfer, return; the left hand is that of the mirror image.
 Session one_handed_session(Hands hands, double rate_hz = 60.0) {

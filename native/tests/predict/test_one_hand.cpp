@@ -16,15 +16,15 @@ using namespace tests;
 
 constexpr double kExact_m = 1e-6;
 constexpr double kReplayed_m = 0.02;  // eight splines of a motion whose legs and hanging arm are nearly straight
-const Vec3 kHome(0.25, 0.38, 0.95), kRest(0.26, 0.12, 0.75);
+const Vec3 kHome(0.25, 0.32, 1.0), kRest(0.26, 0.15, 0.92);
 
 /// Right-handed motions of all four phases, with mirror images, so that there are left-handed ones too.
 class OneHandedCorpus {
  public:
   OneHandedCorpus() {
     std::vector<MotionCode> codes;
-    for (const double stature : {1.6, 1.75, 1.9}) {
-      for (const Vec3& target : {Vec3(0.2, 0.42, 1.25), Vec3(0.4, 0.35, 1.1), Vec3(0.3, 0.40, 1.4)}) {
+    for (const double stature : {1.6, 1.7, 1.8}) {
+      for (const Vec3& target : {Vec3(0.2, 0.36, 1.2), Vec3(0.35, 0.32, 1.1), Vec3(0.3, 0.35, 1.35)}) {
         add(codes, made_one_handed(stature, kHome, target, Hands::right), transfer);
         add(codes, made_one_handed(stature, kRest, target, Hands::right), reach);
       }
