@@ -50,10 +50,10 @@ Replay::Replay(const MotionSummary& motion)
     : home_(motion.home),
       target_(motion.target),
       half_grip_(0.5 * motion.grip_distance_m, 0.0, 0.0),
-      anchors_(anchors_of(Body::from_stature(motion.subject.stature_m, motion.subject.sex).posture())),
-      linkage_(two_handed_linkage(), Body::from_stature(motion.subject.stature_m, motion.subject.sex)),
-      holder_(two_handed_linkage(), Body::from_stature(motion.subject.stature_m, motion.subject.sex),
-              usual_mass_kg(motion.subject.stature_m)) {}
+      body_(Body::from_stature(motion.subject.stature_m, motion.subject.sex)),
+      anchors_(anchors_of(body_.posture())),
+      linkage_(two_handed_linkage(), body_),
+      holder_(two_handed_linkage(), body_, usual_mass_kg(motion.subject.stature_m)) {}
 
 bool Replay::perform(const MotionCode& code, PathForm form, ReplayPostures& postures) const {
   const Coordinates coordinates = curves_of(code).transpose().lazyProduct(basis().whole);
@@ -61,6 +61,7 @@ bool Replay::perform(const MotionCode& code, PathForm form, ReplayPostures& post
 }
 
 bool Replay::perform(const Blend& blend, PathForm form, ReplayPostures& postures) const {
+  if (const PoseMean poses(blend); poses.exists()) return perform(way_of(blend.whole, form), poses, postures);
   Coordinates coordinates = curves_of(blend.from).transpose().lazyProduct(basis().from);
   coordinates += curves_of(blend.to).transpose().lazyProduct(basis().to);
   return perform(way_of(blend.whole, form), coordinates, postures);
@@ -71,24 +72,41 @@ bool Replay::perform(const MotionCode& code, PathForm form, std::span<const doub
   const EndpointWay way = way_of(code, form);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const Eigen::VectorXd coordinates = curves_of(code).transpose() * bspline_row(times[i]).transpose();
-    if (!hold_at(way, coordinates, times[i], postures[i])) return false;
+    const Anchors anchors = anchors_at(way, times[i]);
+    if (!hold_at(anchors, linkage_.decode(coordinates, anchors), postures[i])) return false;
   }
   return true;
 }
 
 bool Replay::perform(const EndpointWay& way, const Coordinates& coordinates, ReplayPostures& postures) const {
   for (int i = 0; i < kReplayTimes; ++i) {
-    if (!hold_at(way, coordinates.col(i), time_of(i), postures[static_cast<std::size_t>(i)])) return false;
+    const Anchors anchors = anchors_at(way, time_of(i));
+    if (!hold_at(anchors, linkage_.decode(coordinates.col(i), anchors), postures[static_cast<std::size_t>(i)]))
+      return false;
   }
   return true;
 }
 
-bool Replay::hold_at(const EndpointWay& way, const Eigen::VectorXd& coordinates, double t, Posture& posture) const {
+bool Replay::perform(const EndpointWay& way, const PoseMean& poses, ReplayPostures& postures) const {
+  const Linkage& linkage = two_handed_linkage();
+  for (int i = 0; i < kReplayTimes; ++i) {
+    const Anchors anchors = anchors_at(way, time_of(i));
+    const TrunkPose pose = poses.at(time_of(i), anchors, linkage, linkage_, body_);
+    if (!hold_at(anchors, decoded_of(linkage, body_, pose), postures[static_cast<std::size_t>(i)])) return false;
+  }
+  return true;
+}
+
+Anchors Replay::anchors_at(const EndpointWay& way, double t) const {
   Anchors anchors = anchors_;
   const Vec3 hold = point_at(way, home_, target_, t);
   anchors.grip = {hold - half_grip_, hold + half_grip_};
+  return anchors;
+}
+
+bool Replay::hold_at(const Anchors& anchors, const Decoded& decoded, Posture& posture) const {
   HoldReport report;
-  posture = holder_.hold(linkage_.decode(coordinates, anchors), anchors, {hold, 0.0}, report);
+  posture = holder_.hold(decoded, anchors, {0.5 * (anchors.grip[0] + anchors.grip[1]), 0.0}, report);
   return report.shortfall_m == 0.0;
 }
 

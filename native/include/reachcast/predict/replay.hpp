@@ -11,6 +11,7 @@
 #include "reachcast/posture/hold.hpp"
 #include "reachcast/posture/linkage.hpp"
 #include "reachcast/predict/blend.hpp"
+#include "reachcast/predict/pose_mean.hpp"
 
 namespace reachcast {
 
@@ -36,11 +37,13 @@ class Replay {
   using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, kReplayTimes>;
   explicit Replay(const MotionSummary& motion);
   [[nodiscard]] bool perform(const EndpointWay& way, const Coordinates& coordinates, ReplayPostures& postures) const;
-  /// One posture at scaled time t; false where the body cannot hold the box.
-  [[nodiscard]] bool hold_at(const EndpointWay& way, const Eigen::VectorXd& coordinates, double t,
-                             Posture& posture) const;
+  [[nodiscard]] bool perform(const EndpointWay& way, const PoseMean& poses, ReplayPostures& postures) const;
+  [[nodiscard]] Anchors anchors_at(const EndpointWay& way, double t) const;
+  /// One posture; false where the body cannot hold the box.
+  [[nodiscard]] bool hold_at(const Anchors& anchors, const Decoded& decoded, Posture& posture) const;
 
   Vec3 home_, target_, half_grip_;
+  Body body_;
   Anchors anchors_;
   BodyLinkage linkage_;
   Holder holder_;
