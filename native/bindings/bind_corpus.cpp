@@ -86,6 +86,9 @@ void bind_motion_fields(py::class_<Motion>& motion) {
           "phase", [](const Motion& self) { return std::string(reachcast::phase_name(self.phase)); },
           "\"transfer\", \"return\", \"reach\" or \"retrieve\".")
       .def_property_readonly(
+          "hands", [](const Motion& self) { return std::string(reachcast::hands_name(self.hands)); },
+          "The hands that work: \"both\", \"left\" or \"right\".")
+      .def_property_readonly(
           "origin", [](const Motion& self) { return text(self.origin); }, "File and frames.")
       .def_readonly("mirrored", &Motion::is_mirrored, "True for the mirror image of the reach named by origin.")
       .def_readonly("duration", &Motion::duration_s, "Seconds.")

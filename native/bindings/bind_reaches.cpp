@@ -68,6 +68,8 @@ void bind_reach(py::module_& m) {
       .def_readonly("subject", &Reach::subject)
       .def_property_readonly("phase",
                              [](const Reach& reach) { return std::string(reachcast::phase_name(reach.phase)); })
+      .def_property_readonly("hands",
+                             [](const Reach& reach) { return std::string(reachcast::hands_name(reach.hands)); })
       .def_readonly("origin", &Reach::origin)
       .def_readonly("duration", &Reach::duration_s, "Seconds from the first to the last frame.")
       .def_readonly("derived", &Reach::derived, "27 flags: joints that the recording lacked.")

@@ -64,7 +64,7 @@ struct Segment {
   Joint inner, outer;  ///< the right one of a pair
   bool paired;
 };
-constexpr std::array<Segment, 12> kSegments{{
+constexpr std::array<Segment, kLengthCount> kSegments{{
     {"pelvis_width", Joint::left_hip, Joint::right_hip, false},
     {"pelvis", Joint::l5s1, Joint::right_hip, false},
     {"thigh", Joint::right_hip, Joint::right_knee, true},
@@ -176,13 +176,24 @@ Posture mirrored(const Posture& posture) {
   return out;
 }
 
-const std::array<std::string_view, 12>& segment_names() {
+const std::array<std::string_view, kLengthCount>& segment_names() {
   static const auto names = [] {
-    std::array<std::string_view, 12> out;
+    std::array<std::string_view, kLengthCount> out;
     for (std::size_t i = 0; i < kSegments.size(); ++i) out[i] = kSegments[i].name;
     return out;
   }();
   return names;
+}
+
+std::array<double, kLengthCount> segment_lengths(const Posture& posture) {
+  const auto distance = [&](Joint a, Joint b) { return glm::distance(posture[index(a)], posture[index(b)]); };
+  std::array<double, kLengthCount> out{};
+  for (std::size_t i = 0; i < kLengthCount; ++i) {
+    const Segment& s = kSegments[i];
+    const double right = distance(s.inner, s.outer);
+    out[i] = s.paired ? 0.5 * (right + distance(mirrored(s.inner), mirrored(s.outer))) : right;
+  }
+  return out;
 }
 
 Body Body::from_stature(double stature_m, std::optional<Sex> sex) {
@@ -264,11 +275,8 @@ Body mirrored(const Body& body) {
 
 std::map<std::string, double> Body::lengths() const {
   std::map<std::string, double> out;
-  for (const Segment& s : kSegments) {
-    const double right = distance(s.inner, s.outer);
-    const double left = s.paired ? distance(mirrored(s.inner), mirrored(s.outer)) : right;
-    out[std::string(s.name)] = 0.5 * (left + right);
-  }
+  const auto measured = segment_lengths(posture_);
+  for (std::size_t i = 0; i < kLengthCount; ++i) out[std::string(segment_names()[i])] = measured[i];
   return out;
 }
 

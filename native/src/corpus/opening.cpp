@@ -85,7 +85,7 @@ void require_corpus(Connection& connection, const fs::path& path) {
     throw std::invalid_argument(quoted(path) + "has schema version " + std::to_string(version) +
                                 ", this Reachcast reads versions up to " + std::to_string(kCorpusSchemaVersion));
   }
-  if (version == 1 || version == 2) {
+  if (version >= 1 && version < kCorpusSchemaVersion) {
     throw std::invalid_argument(quoted(path) + "has schema version " + std::to_string(version) +
                                 ", which this Reachcast no longer reads: build it anew from its recordings");
   }

@@ -23,6 +23,7 @@ enum Column {
   kAge,
   kMass,
   kPhase,
+  kHands,
   kOrigin,
   kMirrored,
   kDuration,
@@ -110,7 +111,7 @@ std::optional<std::string_view> sex_name(const std::optional<Sex>& sex) {
 std::string select(bool with_coefficients, const std::string& condition) {
   // Outer joins keep a motion whose subject or source is gone, so that it is reported and not skipped.
   return std::string(
-             "SELECT m.id, m.subject, s.stature_m, s.sex, s.age_years, s.mass_kg, m.phase, o.origin, m.mirrored,"
+             "SELECT m.id, m.subject, s.stature_m, s.sex, s.age_years, s.mass_kg, m.phase, m.hands, o.origin, m.mirrored,"
              " m.duration_s, m.home_x, m.home_y, m.home_z, m.target_x, m.target_y, m.target_z, m.grip_distance_m") +
          (with_coefficients ? ", c.data, c.original, d.data" : "") +
          " FROM motions m LEFT JOIN subjects s ON s.id = m.subject LEFT JOIN clips o ON o.id = m.clip" +
@@ -173,6 +174,9 @@ MotionSummary read_summary(const sqlite::Statement& row) {
   const std::optional<Phase> phase = find_phase(row.text(kPhase));
   if (!phase) damaged(row, "has the unknown phase '" + std::string(row.text(kPhase)) + "'");
   motion.phase = *phase;
+  const std::optional<Hands> hands = find_hands(row.text(kHands));
+  if (!hands) damaged(row, "has the unknown hands '" + std::string(row.text(kHands)) + "'");
+  motion.hands = *hands;
   if (row.is_null(kOrigin)) damaged(row, "has no origin");
   motion.origin = row.text(kOrigin);
   motion.is_mirrored = row.integer(kMirrored) != 0;
@@ -188,6 +192,7 @@ StoredMotion read_motion(const sqlite::Statement& row, const Format& format) {
   MotionCode code;
   code.subject = summary.subject;
   code.phase = summary.phase;
+  code.hands = summary.hands;
   code.origin = std::move(summary.origin);
   code.is_mirrored = summary.is_mirrored;
   code.duration_s = summary.duration_s;
@@ -211,7 +216,7 @@ Writer::Writer(sqlite::Connection& connection, const Format& format, std::option
       find_motion_(connection, "SELECT id FROM motions WHERE clip = ? AND mirrored = ? AND phase = ?"),
       insert_motion_(connection,
                      "INSERT INTO motions (clip, mirrored, phase, subject, duration_s, home_x, home_y, home_z,"
-                     " target_x, target_y, target_z, grip_distance_m) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+                     " target_x, target_y, target_z, grip_distance_m, hands) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
       insert_coefficients_(connection, "INSERT INTO codes (motion, data, original) VALUES (?, ?, ?)"),
       find_coefficients_(connection, "SELECT data FROM codes WHERE motion = ? AND original IS NULL") {}
 
@@ -297,6 +302,7 @@ std::int64_t Writer::insert(const MotionCode& code, std::int64_t clip) {
     insert_motion_.bind(9 + axis, code.target[axis]);
   }
   insert_motion_.bind(12, code.grip_distance_m);
+  insert_motion_.bind(13, hands_name(code.hands));
   insert_motion_.run();
   const std::int64_t id = connection_.last_id();
   const std::int64_t original = original_of(code, clip);

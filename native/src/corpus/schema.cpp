@@ -47,6 +47,7 @@ CREATE TABLE motions (
   subject INTEGER NOT NULL REFERENCES subjects (id),
   clip INTEGER NOT NULL REFERENCES clips (id),
   phase TEXT NOT NULL,
+  hands TEXT NOT NULL CHECK (hands IN ('both', 'left', 'right')),
   mirrored INTEGER NOT NULL CHECK (mirrored IN (0, 1)),
   duration_s REAL NOT NULL,
   home_x REAL NOT NULL, home_y REAL NOT NULL, home_z REAL NOT NULL,

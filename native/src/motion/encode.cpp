@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reachcast/motion/encode.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "reachcast/curves/bspline.hpp"
+#include "reachcast/motion/code_layout.hpp"
+#include "reachcast/motion/code_ways.hpp"
+#include "reachcast/motion/endpoint_move.hpp"
 #include "reachcast/posture/twist.hpp"
 #include "reachcast/posture/whole_body.hpp"
 
 namespace reachcast {
 namespace {
-
-// Layout of MotionCode::coefficients: velocity (6), deviation x, y, z (6 each), Bezier offsets (3 each) and exponents
-// (2), separation x, y, z (8 each), then posture coordinates, 8 coefficients each, coordinate by coordinate.
-constexpr Eigen::Index kPathLength = 4 * kPathBasisCount;
-constexpr Eigen::Index kCurveLength = 8;
-constexpr Eigen::Index kSeparationStart = kPathLength + kCurveLength;
-constexpr Eigen::Index kSeparationLength = 3 * kBasisCount;
-constexpr Eigen::Index kPostureStart = kSeparationStart + kSeparationLength;
 
 Vec3 separation(const Posture& posture) {
   const Anchors anchors = anchors_of(posture);
@@ -38,10 +34,27 @@ void check(const Reach& reach) {
   }
 }
 
+/// The torso's length over time as a share of its longest, and how long the segments are.
+void measure_body(const Reach& reach, MotionCode& code) {
+  const auto names = segment_names();
+  const std::size_t trunk = static_cast<std::size_t>(std::find(names.begin(), names.end(), "trunk") - names.begin());
+  std::array<double, kLengthCount> mean{};
+  Eigen::MatrixXd torso(reach.frames(), 1);
+  for (std::size_t f = 0; f < reach.frames(); ++f) {
+    const std::array<double, kLengthCount> now = segment_lengths(reach.postures[f]);
+    torso(static_cast<Eigen::Index>(f), 0) = now[trunk];
+    for (std::size_t i = 0; i < kLengthCount; ++i) mean[i] += now[i] / static_cast<double>(reach.frames());
+  }
+  mean[trunk] = torso.maxCoeff();
+  code.coefficients.segment<kBasisCount>(layout::kTorso) = fit_bspline(torso / mean[trunk]);
+  for (std::size_t i = 0; i < kLengthCount; ++i)
+    code.coefficients[layout::kLengths + static_cast<Eigen::Index>(i)] = mean[i] / reach.subject.stature_m;
+}
+
 }  // namespace
 
 Eigen::Index code_length() {
-  return kPostureStart + kBasisCount * posture_coordinate_count(two_handed_linkage());
+  return layout::kPosture + kBasisCount * posture_coordinate_count(two_handed_linkage());
 }
 
 MotionCode encode_reach(const Reach& reach) {
@@ -49,6 +62,7 @@ MotionCode encode_reach(const Reach& reach) {
   MotionCode code;
   code.subject = reach.subject;
   code.phase = reach.phase;
+  code.hands = reach.hands;
   code.origin = reach.origin;
   code.duration_s = reach.duration_s;
   code.home = reach.hold_point(0);
@@ -74,40 +88,43 @@ MotionCode encode_reach(const Reach& reach) {
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(reach.origin + ": hold point: " + error.what());
   }
-  code.coefficients.segment<kSeparationLength>(kSeparationStart) = solve_smooth(resting_basis, separations).reshaped();
-  code.coefficients.tail(code_length() - kPostureStart) = fit_bspline(coordinates).reshaped();
+  code.coefficients.segment<3 * kBasisCount>(layout::kSeparation) = solve_smooth(resting_basis, separations).reshaped();
+  set_foot_moves(code, foot_moves_of(reach));
+  set_pelvis_move(code, pelvis_move_of(reach));
+  measure_body(reach, code);
+  code.coefficients.tail(code_length() - layout::kPosture) = fit_bspline(coordinates).reshaped();
   return code;
 }
 
 EndpointPath path_of(const MotionCode& code) {
-  EndpointPath path;
-  path.velocity = code.coefficients.head<kPathBasisCount>();
-  path.deviation = code.coefficients.segment<3 * kPathBasisCount>(kPathBasisCount).reshaped(kPathBasisCount, 3);
-  return path;
+  return layout::path_at(code.coefficients, layout::kHoldWay);
 }
 
 void set_path(MotionCode& code, const EndpointPath& path) {
-  code.coefficients.head<kPathBasisCount>() = path.velocity;
-  code.coefficients.segment<3 * kPathBasisCount>(kPathBasisCount) = path.deviation.reshaped();
+  layout::put_path(path, code.coefficients, layout::kHoldWay);
 }
 
 AxisCurve curve_of(const MotionCode& code) {
-  const double* next = code.coefficients.data() + kPathLength;
-  AxisCurve curve;
-  for (Vec3& offset : curve.offsets) {
-    for (int k = 0; k < 3; ++k) offset[k] = *next++;
-  }
-  curve.speed = {next[0], next[1]};
-  return curve;
+  return layout::curve_at(code.coefficients, layout::kHoldWay + layout::kPathLength);
 }
 
 void set_curve(MotionCode& code, const AxisCurve& curve) {
-  double* next = code.coefficients.data() + kPathLength;
-  for (const Vec3& offset : curve.offsets) {
-    for (int k = 0; k < 3; ++k) *next++ = offset[k];
-  }
-  next[0] = curve.speed.alpha;
-  next[1] = curve.speed.beta;
+  layout::put_curve(curve, code.coefficients, layout::kHoldWay + layout::kPathLength);
+}
+
+double torso_at(const MotionCode& code, double t) {
+  const LocalBasis local = bspline_local(t);
+  double share = 0.0;
+  for (std::size_t i = 0; i < local.values.size(); ++i)
+    share += local.values[i] * code.coefficients[layout::kTorso + local.first + static_cast<Eigen::Index>(i)];
+  return share;
+}
+
+std::array<double, kLengthCount> lengths_of(const MotionCode& code) {
+  std::array<double, kLengthCount> lengths{};
+  for (std::size_t i = 0; i < kLengthCount; ++i)
+    lengths[i] = code.coefficients[layout::kLengths + static_cast<Eigen::Index>(i)];
+  return lengths;
 }
 
 MotionCode reversed(const MotionCode& code) {
@@ -123,13 +140,19 @@ MotionCode reversed(const MotionCode& code) {
   };
   turn_round(0, kPathBasisCount, 4);
   set_curve(back, {{curve.offsets[1], curve.offsets[0]}, {curve.speed.beta, curve.speed.alpha}});
-  turn_round(kSeparationStart, kBasisCount, (code.coefficients.size() - kSeparationStart) / kBasisCount);
+  turn_round(layout::kSeparation, kBasisCount, 3);
+  std::array<EndpointMove, 2> feet = foot_moves_of(code);
+  for (EndpointMove& move : feet) move = reversed(move);
+  set_foot_moves(back, feet);
+  set_pelvis_move(back, reversed(pelvis_move_of(code)));
+  turn_round(layout::kTorso, kBasisCount, 1);
+  turn_round(layout::kPosture, kBasisCount, (code.coefficients.size() - layout::kPosture) / kBasisCount);
   return back;
 }
 
 Vec3 separation_at(const MotionCode& code, double t) {
   const LocalBasis local = bspline_local(resting_time(t));
-  const double* curves = code.coefficients.data() + kSeparationStart + local.first;
+  const double* curves = code.coefficients.data() + layout::kSeparation + local.first;
   Vec3 out(0.0);
   for (int k = 0; k < 3; ++k) {
     for (std::size_t i = 0; i < local.values.size(); ++i)
@@ -140,13 +163,13 @@ Vec3 separation_at(const MotionCode& code, double t) {
 
 PostureCurves posture_curves(const MotionCode& code) {
   const Eigen::Index count = posture_coordinate_count(two_handed_linkage());
-  const double* start = code.coefficients.data() + kPostureStart;
+  const double* start = code.coefficients.data() + layout::kPosture;
   return Eigen::Map<const Eigen::MatrixXd>(start, kBasisCount, count).transpose();
 }
 
 Eigen::VectorXd coordinates_at(const MotionCode& code, double t) {
   const Eigen::Index count = posture_coordinate_count(two_handed_linkage());
-  const Eigen::Map<const Eigen::MatrixXd> curves(code.coefficients.data() + kPostureStart, kBasisCount, count);
+  const Eigen::Map<const Eigen::MatrixXd> curves(code.coefficients.data() + layout::kPosture, kBasisCount, count);
   return (bspline_row(t) * curves).transpose();
 }
 

@@ -2,10 +2,13 @@
 #include "reachcast/motion/mirror_code.hpp"
 
 #include <array>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "reachcast/motion/code_layout.hpp"
 #include "reachcast/motion/encode.hpp"
 #include "reachcast/posture/whole_body.hpp"
 
@@ -21,8 +24,13 @@ struct Origin {
 class Layout {
  public:
   Layout() {
-    path();
+    way(next_);
     separation();
+    move(layout::kFeet + layout::kMoveLength);
+    move(layout::kFeet);
+    move(layout::kPelvis);
+    run(next_, kBasisCount, 1.0);                              // the torso
+    run(next_, static_cast<Eigen::Index>(kLengthCount), 1.0);  // lengths
     const Linkage& linkage = two_handed_linkage();
     const auto trunk = static_cast<Eigen::Index>(Chain::coordinate_count(linkage.primary.joints.size() - 1)) +
                        static_cast<Eigen::Index>(3 * kPartCount);
@@ -49,15 +57,23 @@ class Layout {
     for (Eigen::Index i = 0; i < count; ++i) origins_.push_back({from + i, sign});
     next_ += count;
   }
-  void path() {
-    run(next_, kPathBasisCount, 1.0);   // speed along the line
-    run(next_, kPathBasisCount, -1.0);  // deviation to the right
-    run(next_, 2 * kPathBasisCount, 1.0);
-    for (int offset = 0; offset < 2; ++offset) {  // of the Bezier curve
-      run(next_, 1, -1.0);
-      run(next_, 2, 1.0);
-    }
-    run(next_, 2, 1.0);  // its exponents of speed
+  /// Runs of coefficients from `from` on, each with a sign.
+  void runs(Eigen::Index from, std::initializer_list<std::pair<Eigen::Index, double>> parts) {
+    for (const auto& [count, sign] : parts) run(from, count, sign), from += count;
+  }
+  void way(Eigen::Index from) {
+    runs(from, {{kPathBasisCount, 1.0},   // speed along the line
+                {kPathBasisCount, -1.0},  // deviation to the right
+                {2 * kPathBasisCount, 1.0},
+                {1, -1.0},  // offsets of the Bezier curve
+                {2, 1.0},
+                {1, -1.0},
+                {2, 1.0},
+                {2, 1.0}});  // its exponents of speed
+  }
+  void move(Eigen::Index from) {
+    runs(from, {{1, -1.0}, {2, 1.0}});
+    way(from + 3);
   }
   void separation() { vector(next_, {1.0, -1.0, -1.0}); }
   void curves(Eigen::Index shift, Eigen::Index count) { run(next_ + shift * kBasisCount, count * kBasisCount, 1.0); }

@@ -12,6 +12,9 @@ constexpr std::array<std::pair<Phase, std::string_view>, 4> kPhaseNames{{{Phase:
                                                                          {Phase::reach, "reach"},
                                                                          {Phase::retrieve, "retrieve"}}};
 
+constexpr std::array<std::pair<Hands, std::string_view>, 3> kHandsNames{
+    {{Hands::both, "both"}, {Hands::left, "left"}, {Hands::right, "right"}}};
+
 }  // namespace
 
 bool is_loaded(Phase phase) {
@@ -45,6 +48,24 @@ std::optional<Phase> find_phase(std::string_view name) {
   return found->first;
 }
 
+std::string_view hands_name(Hands hands) {
+  const auto found =
+      std::find_if(kHandsNames.begin(), kHandsNames.end(), [&](const auto& h) { return h.first == hands; });
+  return found == kHandsNames.end() ? std::string_view{} : found->second;
+}
+
+std::optional<Hands> find_hands(std::string_view name) {
+  const auto found =
+      std::find_if(kHandsNames.begin(), kHandsNames.end(), [&](const auto& h) { return h.second == name; });
+  if (found == kHandsNames.end()) return std::nullopt;
+  return found->first;
+}
+
+Hands mirrored(Hands hands) {
+  if (hands == Hands::both) return hands;
+  return hands == Hands::left ? Hands::right : Hands::left;
+}
+
 Vec3 Reach::hold_point(std::size_t frame) const {
   const Posture& posture = postures.at(frame);
   return (posture[index(Joint::left_grip)] + posture[index(Joint::right_grip)]) * 0.5;
@@ -52,6 +73,7 @@ Vec3 Reach::hold_point(std::size_t frame) const {
 
 Reach mirrored(const Reach& reach) {
   Reach image = reach;
+  image.hands = mirrored(reach.hands);
   for (std::size_t joint = 0; joint < kJointCount; ++joint) {
     image.derived[joint] = reach.derived[index(mirrored(static_cast<Joint>(joint)))];
   }

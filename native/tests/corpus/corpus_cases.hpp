@@ -57,6 +57,7 @@ inline MotionCode random_code(std::mt19937_64& random, int number, int length = 
   if (random() % 2) code.subject.age_years = uniform(random);
   if (random() % 2) code.subject.mass_kg = uniform(random);
   code.phase = static_cast<Phase>(random() % 4);
+  code.hands = static_cast<Hands>(random() % 3);
   code.origin = "folder/clip é.csv:" + std::to_string(number);
   code.is_mirrored = random() % 2 == 1;
   code.duration_s = uniform(random);
@@ -83,6 +84,7 @@ inline void expect_same(const MotionCode& a, const MotionCode& b) {
   EXPECT_EQ(a.subject.age_years, b.subject.age_years);
   EXPECT_EQ(a.subject.mass_kg, b.subject.mass_kg);
   EXPECT_EQ(a.phase, b.phase);
+  EXPECT_EQ(a.hands, b.hands);
   EXPECT_EQ(a.origin, b.origin);
   EXPECT_EQ(a.is_mirrored, b.is_mirrored);
   EXPECT_EQ(a.duration_s, b.duration_s);

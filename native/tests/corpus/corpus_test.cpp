@@ -50,9 +50,9 @@ TEST(Corpus, SummariesAgreeWithMotions) {
   for (std::size_t i = 0; i < summaries.size(); ++i) {
     const MotionSummary& summary = summaries[i];
     EXPECT_EQ(summary.id, motions[i].id);
-    const MotionCode as_code{summary.subject,     summary.phase,           summary.origin,
-                             summary.is_mirrored, summary.duration_s,      summary.home,
-                             summary.target,      summary.grip_distance_m, motions[i].code.coefficients};
+    const MotionCode as_code{
+        summary.subject,    summary.phase, summary.hands,  summary.origin,          summary.is_mirrored,
+        summary.duration_s, summary.home,  summary.target, summary.grip_distance_m, motions[i].code.coefficients};
     expect_same(as_code, motions[i].code);
   }
 }
@@ -163,7 +163,7 @@ TEST(Corpus, KeepsMetadata) {
     corpus.set_meta("licence", "");
   }
   const std::map<std::string, std::string> expected{
-      {"created_by", "reachcast 9.8"},   {"schema_version", "3"}, {"precision", "exact"}, {"kind", "recorded"},
+      {"created_by", "reachcast 9.8"},   {"schema_version", "4"}, {"precision", "exact"}, {"kind", "recorded"},
       {"description", "Zwölf Personen"}, {"licence", ""}};
   EXPECT_EQ(Corpus::open(folder / "a").meta(), expected);
 }

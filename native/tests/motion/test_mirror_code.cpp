@@ -26,6 +26,19 @@ TEST(MirrorImage, IsWhatTheMirroredPosturesGive) {
   EXPECT_LT((image - wanted).cwiseAbs().maxCoeff(), 1e-9);
 }
 
+TEST(MirrorImage, OfAStepOfTheLeftFootIsAStepOfTheRight) {
+  Reach reach = lift();
+  const auto last = static_cast<double>(reach.frames() - 1);
+  for (std::size_t f = 0; f < reach.frames(); ++f) {
+    const double t = static_cast<double>(f) / last;
+    for (const Joint j : {Joint::left_ankle, Joint::left_ball})
+      reach.postures[f][index(j)] += Vec3(-0.3 * t, 0.2 * t, 0.4 * t * (1.0 - t));
+  }
+  const Eigen::VectorXd image = mirror_image(encode_reach(reach).coefficients),
+                        wanted = encode_reach(mirrored(reach)).coefficients;
+  EXPECT_LT((image - wanted).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST(MirrorImage, OfTheImageIsTheMotionInEveryBit) {
   Eigen::VectorXd numbers(code_length());
   for (Eigen::Index i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<double>(i + 1);

@@ -60,11 +60,16 @@ class Body {
   std::optional<Points> spine_;
 };
 
+inline constexpr std::size_t kLengthCount = 12;
+
 /// The mirror image of a body.
 [[nodiscard]] Body mirrored(const Body& body);
 
 /// Names that from_lengths takes: foot, shank, thigh, pelvis_width, pelvis, trunk, clavicle, upper_arm, forearm, hand,
 /// neck, head.
-[[nodiscard]] const std::array<std::string_view, 12>& segment_names();
+[[nodiscard]] const std::array<std::string_view, kLengthCount>& segment_names();
+
+/// Lengths in the order of segment_names, metres; those of limbs are the mean of left and right.
+[[nodiscard]] std::array<double, kLengthCount> segment_lengths(const Posture& posture);
 
 }  // namespace reachcast

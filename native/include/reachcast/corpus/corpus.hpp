@@ -27,7 +27,7 @@
 
 namespace reachcast {
 
-inline constexpr int kCorpusSchemaVersion = 3;                    ///< PRAGMA user_version
+inline constexpr int kCorpusSchemaVersion = 4;                    ///< PRAGMA user_version
 inline constexpr std::int32_t kCorpusApplicationId = 0x52434350;  ///< PRAGMA application_id: "RCCP"
 inline constexpr std::size_t kRememberedCodes = 4096;
 inline constexpr std::size_t kMostProblems = 100;

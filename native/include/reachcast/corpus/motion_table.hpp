@@ -21,6 +21,7 @@ struct MotionSummary {
   std::int64_t subject_id = 0;  ///< equal for motions whose Subject has the same four values
   Subject subject;
   Phase phase = Phase::transfer;
+  Hands hands = Hands::both;
   std::string origin;
   bool is_mirrored = false;
   double duration_s = 0.0;

@@ -14,6 +14,7 @@ namespace reachcast {
 struct MotionCode {
   Subject subject;
   Phase phase = Phase::transfer;
+  Hands hands = Hands::both;
   std::string origin;
   bool is_mirrored = false;  ///< the mirror image of the reach named by `origin`
   double duration_s = 0.0;

@@ -29,9 +29,17 @@ inline constexpr std::size_t kPhaseCount = 4;
 [[nodiscard]] std::string_view phase_name(Phase phase);
 [[nodiscard]] std::optional<Phase> find_phase(std::string_view name);
 
+/// Which hands work: hold the object, come for it or leave it. The other hand, if any, is free.
+enum class Hands { both, left, right };
+[[nodiscard]] std::string_view hands_name(Hands hands);  ///< "both", "left" or "right"
+[[nodiscard]] std::optional<Hands> find_hands(std::string_view name);
+/// Those of the mirror image.
+[[nodiscard]] Hands mirrored(Hands hands);
+
 struct Reach {
   Subject subject;
   Phase phase = Phase::transfer;
+  Hands hands = Hands::both;
   std::string origin;                       ///< file and frames, e.g. "omomo/sub8_largebox_025.csv:22-50"
   double duration_s = 0.0;                  ///< > 0, first to last posture
   std::vector<Posture> postures;            ///< body frame, evenly spaced in time, at least 4
