@@ -3,7 +3,7 @@
 # The same tests on the Blenders of three Debian releases: this machine's and, in chroots, those of trixie and sid.
 # Prints one line per Blender: versions, passed, failed, skipped, date. Logs stay in build/logs/matrix.
 #
-#     bash blender_tests/matrix.sh [--clean] [--parts "native python blender window lift"] [here|trixie|sid ...]
+#     bash blender_tests/matrix.sh [--clean] [--parts "native python blender window lift slurm"] [here|trixie|sid ...]
 #
 # Needs root, network for a chroot that is new, and 6 GB in $REACHCAST_CHROOTS (/var/tmp/reachcast-matrix). --clean removes
 # the chroots named and makes them anew. Recordings: as for run.sh; a chroot sees them read-only.
@@ -15,7 +15,7 @@ CHROOTS=${REACHCAST_CHROOTS:-/var/tmp/reachcast-matrix}
 MIRROR=${REACHCAST_MIRROR:-http://deb.debian.org/debian}
 MOCAP=${REACHCAST_MOCAP:-$ROOT/../shared/mocap}
 LOGS=$ROOT/build/logs/matrix
-PARTS='native python blender window lift'
+PARTS='native python blender window lift slurm'
 LINES=()
 STATUS=0
 
@@ -94,7 +94,9 @@ test_suite() {
     make_chroot "$suite" || { note "$suite: no chroot could be made" 1; return; }
     copy_source "$root"
     versions=$(inside "$root" "$VERSIONS")
-    inside "$root" "cd /src && bash blender_tests/run.sh $PARTS" >"$log" 2>&1 || status=$?
+    # A chroot of an earlier run may lack what is needed since; run.sh looks for all other packages.
+    inside "$root" "cd /src && source examples/setup.sh && need_packages $(extra_packages "$suite") &&
+      bash blender_tests/run.sh $PARTS" >"$log" 2>&1 || status=$?
     rm -rf "${LOGS:?}/$suite" && cp -r "$root/src/build/logs" "$LOGS/$suite"
   fi
   counts=$(tail -n 1 "$log")

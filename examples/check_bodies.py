@@ -70,7 +70,8 @@ def random_set(pick: np.random.Generator, corpora: list[rc.Corpus], folder: Path
 
 def random_scheme(pick: np.random.Generator) -> dict[str, object]:
     scheme: dict[str, object] = {"k": int(pick.integers(1, 41)), "sets": int(pick.integers(1, 3)),
-                                 "mirrored": bool(pick.integers(2)), "paths": str(pick.choice(["deviation", "bezier"]))}
+                                 "mirrored": bool(pick.integers(2)), "paths": str(pick.choice(["deviation", "bezier"])),
+                                 "postures": str(pick.choice(["coordinates", "poses"]))}
     kind = pick.integers(3)
     if kind == 0:
         scheme["weights"] = str(pick.choice(["uniform", "triangular"]))

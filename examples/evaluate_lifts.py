@@ -49,6 +49,7 @@ SCHEMES = {
     "k = 3, one set": {"k": 3, "sets": 1},
     "k = 3": {"k": 3},
     DEFAULT: {},
+    "poses, k = 5, one set": {"postures": "poses", "sets": 1},
     "k = 10": {"k": 10},
     "ranks of task alone, k = 5": {"ranks": ["task"]},
     "distances, kernel, k = 15": {"k": 15, "distances": ["task", "stature"], "smoother": "kernel"},

@@ -14,7 +14,7 @@ namespace py = pybind11;
 namespace reachcast::bindings {
 namespace {
 
-constexpr const char* kKeys = "k, ranks or distances, weights, mirrored, sets, paths, smoother, bandwidth, ridge";
+constexpr const char* kKeys = "k, ranks or distances, weights, mirrored, sets, paths, postures, smoother, bandwidth, ridge";
 
 [[noreturn]] void refuse(const std::string& key, const py::handle& value, const std::string& limit) {
   throw std::invalid_argument("scheme: " + key + " is " + py::repr(value).cast<std::string>() + "; it must be " +
@@ -97,6 +97,8 @@ void set(Scheme& scheme, const std::string& key, const py::handle& value) {
     scheme.sets = value.cast<double>() == 1.0 ? Sets::one : Sets::two;
   } else if (key == "paths") {
     scheme.paths = to_choice(key, value, {"deviation", "bezier"}) == 0 ? PathForm::deviation : PathForm::bezier;
+  } else if (key == "postures") {
+    scheme.postures = to_choice(key, value, {"coordinates", "poses"}) == 0 ? Average::coordinates : Average::poses;
   } else if (key == "smoother") {
     const std::size_t choice = to_choice(key, value, {"mean", "kernel", "linear"});
     if (choice != 0) scheme.smoother = choice == 1 ? Smoother::kernel : Smoother::linear;
@@ -171,6 +173,7 @@ py::dict scheme_dict(const Scheme& scheme) {
   out["mirrored"] = scheme.mirrored;
   out["sets"] = scheme.effective_sets() == Sets::one ? 1 : 2;
   out["paths"] = scheme.paths == PathForm::deviation ? "deviation" : "bezier";
+  out["postures"] = scheme.postures == Average::coordinates ? "coordinates" : "poses";
   return out;
 }
 

@@ -11,6 +11,7 @@ import numpy as np
 from mathutils import Vector
 
 from .. import native
+from ..rigs.rig_presets import PRESETS_FOLDER
 from ..rigs.rotations import Array
 from ..rigs.skeleton import Skeleton
 from ..scene.carry import remove_holds
@@ -25,6 +26,7 @@ from .tasks import Task, Unit
 DEFAULT_STATURE = 1.75
 DEFAULT_BOX = (0.35, 0.30, 0.25)
 MOST_KEPT_BOXES = 8   #: that were made for tasks and stay in the scene
+MANNEQUIN_BONES = PRESETS_FOLDER / "mannequin.json"   #: to recognise them anew takes longer than a motion
 WITHOUT_SURFACES = frozenset({"csv", "bvh", "action"})   #: outputs for which a mannequin is an armature only
 
 
@@ -122,7 +124,7 @@ class Stage:
                 stature = task.stature or DEFAULT_STATURE
                 rig = add_mannequin(stature, task.sex, " ".join(filter(None, ["Worker", f"{stature:g}", task.sex])),
                                     dressed=False)
-            self._workers[key] = Worker(rig, read_rig(rig))
+            self._workers[key] = Worker(rig, read_rig(rig, None if task.rig else MANNEQUIN_BONES))
         worker = self._workers[key]
         if task.rig is None and not WITHOUT_SURFACES.issuperset(task.outputs) and not worker.rig.children:
             dress_mannequin(worker.rig, standing_posture(task.stature or DEFAULT_STATURE, task.sex))
@@ -183,7 +185,7 @@ def add_mannequin(stature: float, sex: str | None, name: str = "Worker", *, dres
                           dressed=dressed)
     rig.rotation_euler.z = math.pi
     bpy.context.view_layer.update()
-    rig.location -= Vector(read_rig(rig).origin.tolist())
+    rig.location -= Vector(read_rig(rig, MANNEQUIN_BONES).origin.tolist())
     bpy.context.view_layer.update()
     return rig
 

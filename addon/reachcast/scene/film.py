@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
+import numpy as np
 
 from .blender_versions import add_caption, add_effect, set_file_format, strips_of
 from .render import leave_no_stamp
@@ -52,7 +54,7 @@ def write_film(pictures: Sequence[Path], size: tuple[int, int], rate: float, pat
         set_file_format(render.image_settings, "FFMPEG")
         coding = render.ffmpeg
         coding.format, coding.codec, coding.audio_codec = "MPEG4", "H264", "NONE"
-        coding.constant_rate_factor, coding.ffmpeg_preset, coding.gopsize = "HIGH", "GOOD", 12
+        coding.constant_rate_factor, coding.ffmpeg_preset, coding.gopsize = "HIGH", "REALTIME", 12
         render.filepath = os.fspath(path)
         bpy.ops.render.render(animation=True, scene=scene.name)
 
@@ -62,19 +64,18 @@ def write_contact_sheet(moments: Sequence[Moment], pictures: dict[int, Path], si
     """Pictures in rows, of `size` or smaller; under each what it shows."""
     scale = min(1.0, PANEL_WIDTH / size[0])
     panel = round(size[0] * scale), round(size[1] * scale)
+    cell = panel[0] + 2 * GAP, panel[1] + 2 * GAP + CAPTION
     columns = min(most_columns, len(moments))
-    rows = -(-len(moments) // columns)
-    step = panel[0] + 2 * GAP, panel[1] + 2 * GAP + CAPTION
-    sheet = columns * step[0], rows * step[1]
-    with _sequence(sheet) as scene:
-        add_effect(scene, "COLOR", 1, 1).color = PAPER
+    # A cell a frame: a sequencer that lays every picture over the whole sheet takes three times as long.
+    with _sequence(cell) as scene, tempfile.TemporaryDirectory(dir=path.parent) as folder:
+        add_effect(scene, "COLOR", 1, len(moments)).color = PAPER
         for number, moment in enumerate(moments):
-            left, top = number % columns * step[0] + GAP, sheet[1] - number // columns * step[1] - GAP
-            _add_panel(scene, pictures[moment.frame], 2 * number + 2, scale,
-                       (left + 0.5 * panel[0] - 0.5 * sheet[0], top - 0.5 * panel[1] - 0.5 * sheet[1]))
-            _add_text(scene, Caption(moment.label, left + 4, top - panel[1] - 0.75 * CAPTION,
-                                     min(16, max(6, panel[0] // 18)), INK), sheet, 2 * number + 3)
-        _write_still(scene, path)
+            _add_panel(scene, pictures[moment.frame], 2, scale, (0.0, 0.5 * CAPTION), number + 1)
+            _add_text(scene, Caption(moment.label, GAP + 4, GAP + 0.25 * CAPTION, min(16, max(6, panel[0] // 18)), INK),
+                      cell, 3, number + 1)
+        scene.render.image_settings.compression = 0  # they are read again at once
+        cells = _write_stills(scene, Path(folder) / "cell", len(moments))
+        _join(cells, cell, columns, path)
 
 
 def write_captioned(picture: Path, size: tuple[int, int], captions: Sequence[Caption], path: Path) -> None:
@@ -84,26 +85,56 @@ def write_captioned(picture: Path, size: tuple[int, int], captions: Sequence[Cap
             _add_panel(scene, path if begin else picture, 1, 1.0, (0.0, 0.0))
             for number, caption in enumerate(captions[begin:begin + MOST_CAPTIONS]):
                 _add_text(scene, caption, size, number + 2)
-            _write_still(scene, path)
+            _write_stills(scene, path, 1)[0].replace(path)
 
 
-def _add_text(scene: bpy.types.Scene, caption: Caption, size: tuple[int, int], channel: int) -> None:
+def _add_text(scene: bpy.types.Scene, caption: Caption, size: tuple[int, int], channel: int, frame: int = 1) -> None:
     strip = add_caption(scene, caption.text, channel, 1)
+    strip.frame_start = frame
     strip.font_size, strip.color = caption.size, caption.colour
     strip.location = caption.x / size[0], caption.y / size[1]
     strip.blend_type = "ALPHA_OVER"
 
 
-def _write_still(scene: bpy.types.Scene, path: Path) -> None:
-    scene.frame_end = 1
+def _write_stills(scene: bpy.types.Scene, path: Path, count: int) -> list[Path]:
+    """Of the frames from 1 on, named after `path`."""
+    scene.frame_end = count
     scene.render.filepath = os.fspath(path.with_suffix("")) + "-"
     bpy.ops.render.render(animation=True, scene=scene.name)  # a still is of the window's scene's frame
-    path.with_name(f"{path.stem}-0001.png").replace(path)
+    return [path.with_name(f"{path.stem}-{frame:04d}.png") for frame in range(1, count + 1)]
 
 
-def _add_panel(scene: bpy.types.Scene, picture: Path, channel: int, scale: float, middle: tuple[float, float]) -> None:
-    """middle: pixels from the middle of the sheet."""
-    strip = strips_of(scene).new_image(picture.name, os.fspath(picture), channel, 1, fit_method="ORIGINAL")
+def _join(cells: Sequence[Path], size: tuple[int, int], columns: int, path: Path) -> None:
+    """Pictures of one size in rows as one, on paper."""
+    (width, height), rows = size, -(-len(cells) // columns)
+    sheet = np.ones((rows * height, columns * width, 4), np.float32)   # the lowest row first, as in an image's pixels
+    sheet[..., :3] = PAPER
+    for number, cell in enumerate(cells):
+        left, top = number % columns * width, (rows - number // columns) * height
+        sheet[top - height:top, left:left + width] = _pixels(cell).reshape(height, width, 4)
+    image = bpy.data.images.new(path.stem, columns * width, rows * height)
+    try:
+        image.pixels.foreach_set(sheet.ravel())
+        image.filepath_raw, image.file_format = os.fspath(path), "PNG"
+        image.save()
+    finally:
+        bpy.data.images.remove(image)
+
+
+def _pixels(picture: Path) -> np.ndarray:
+    image = bpy.data.images.load(os.fspath(picture))
+    try:
+        values = np.empty(len(image.pixels), np.float32)
+        image.pixels.foreach_get(values)
+        return values
+    finally:
+        bpy.data.images.remove(image)
+
+
+def _add_panel(scene: bpy.types.Scene, picture: Path, channel: int, scale: float, middle: tuple[float, float],
+               frame: int = 1) -> None:
+    """middle: pixels from the middle of the sequencer's picture."""
+    strip = strips_of(scene).new_image(picture.name, os.fspath(picture), channel, frame, fit_method="ORIGINAL")
     strip.blend_type = "ALPHA_OVER"
     strip.transform.scale_x = strip.transform.scale_y = scale
     strip.transform.offset_x, strip.transform.offset_y = middle

@@ -15,12 +15,9 @@ Vec3 direction(const Vec3& v, const Vec3& otherwise) {
   return size > 1e-9 ? v / size : glm::normalize(otherwise);
 }
 
-void add_to(TrunkPose& sum, const TrunkPose& pose, double weight) {
+/// All but the turns.
+void add_rest(const TrunkPose& pose, double weight, TrunkPose& sum) {
   sum.waist += weight * pose.waist;
-  for (std::size_t i = 0; i < sum.parts.size(); ++i) {
-    const double sign = glm::dot(sum.parts[i], pose.parts[i]) < 0.0 ? -1.0 : 1.0;
-    sum.parts[i] = sum.parts[i] + sign * weight * pose.parts[i];
-  }
   for (std::size_t i = 0; i < sum.pointers.size(); ++i) sum.pointers[i] += weight * pose.pointers[i];
   for (std::size_t i = 0; i < kLimbCount; ++i) {
     sum.planes[i].normal += weight * pose.planes[i].normal;
@@ -30,7 +27,37 @@ void add_to(TrunkPose& sum, const TrunkPose& pose, double weight) {
   sum.bend_rad += weight * pose.bend_rad;
 }
 
+double sign_towards(const Quat& turn, const Quat& other) {
+  return glm::dot(turn, other) < 0.0 ? -1.0 : 1.0;
+}
+
 }  // namespace
+
+TrunkPose no_pose() {
+  TrunkPose pose;
+  pose.parts.fill(Quat(0, 0, 0, 0));
+  return pose;
+}
+
+void add(const TrunkPose& pose, double weight, TrunkPose& sum) {
+  for (std::size_t i = 0; i < sum.parts.size(); ++i) {
+    sum.parts[i] = sum.parts[i] + sign_towards(pose.parts[i], sum.parts[i]) * weight * pose.parts[i];
+  }
+  add_rest(pose, weight, sum);
+}
+
+TrunkPose lack_of(const TrunkPose& pose, const TrunkPose& wanted) {
+  TrunkPose lack = wanted;
+  for (std::size_t i = 0; i < lack.parts.size(); ++i)
+    lack.parts[i] = sign_towards(wanted.parts[i], pose.parts[i]) * wanted.parts[i] - pose.parts[i];
+  add_rest(pose, -1.0, lack);
+  return lack;
+}
+
+void make_good(const TrunkPose& lack, double share, TrunkPose& pose) {
+  for (std::size_t i = 0; i < pose.parts.size(); ++i) pose.parts[i] = pose.parts[i] + share * lack.parts[i];
+  add_rest(lack, share, pose);
+}
 
 TrunkPose trunk_pose_of(const Linkage& linkage, const Body& body, const Decoded& decoded) {
   TrunkPose pose;
@@ -103,11 +130,10 @@ Decoded TrunkTrack::at(double time_s) const {
   const double place = std::clamp(time_s / spacing_s_, 0.0, static_cast<double>(last));
   const long before = std::min(static_cast<long>(place), last - 1);
   const std::array<double, 4> weights = cubic_weights(place - static_cast<double>(before));
-  TrunkPose mean;
-  mean.parts = {Quat(0, 0, 0, 0), Quat(0, 0, 0, 0)};
+  TrunkPose mean = no_pose();
   for (long k = 0; k < 4; ++k) {
-    add_to(mean, poses_[static_cast<std::size_t>(std::clamp(before - 1 + k, 0L, last))],
-           weights[static_cast<std::size_t>(k)]);
+    add(poses_[static_cast<std::size_t>(std::clamp(before - 1 + k, 0L, last))], weights[static_cast<std::size_t>(k)],
+        mean);
   }
   return decoded_of(linkage_, body_, mean);
 }

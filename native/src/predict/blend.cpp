@@ -82,10 +82,28 @@ std::vector<Share> merged(const std::vector<Share>& a, const std::vector<Share>&
   return once;
 }
 
+/// Each code once, with its weights in both sets.
+std::vector<PosturePart> parts_of(std::span<const WeightedCode> at_home, std::span<const WeightedCode> at_target) {
+  std::vector<PosturePart> parts;
+  std::vector<const MotionCode*> known;
+  const auto part_of = [&](const MotionCode* code) -> PosturePart& {
+    const auto found = std::find(known.begin(), known.end(), code);
+    if (found != known.end()) return parts[static_cast<std::size_t>(found - known.begin())];
+    known.push_back(code);
+    return parts.emplace_back(PosturePart{posture_curves(*code), 0.0, 0.0});
+  };
+  for (const auto& [code, weight] : at_home) part_of(code).at_home += weight;
+  for (const auto& [code, weight] : at_target.empty() ? at_home : at_target) part_of(code).at_target += weight;
+  if (parts.size() == 1) parts.clear();
+  return parts;
+}
+
 }  // namespace
 
 void blend_codes(std::span<const WeightedCode> at_home, std::span<const WeightedCode> at_target, const Query& query,
-                 Blend& blend) {
+                 Average postures, Blend& blend) {
+  blend.parts.clear();
+  if (postures == Average::poses) blend.parts = parts_of(at_home, at_target);
   mean_of(at_home, query, blend.from);
   if (at_target.empty()) {
     blend.to = blend.from;
@@ -121,7 +139,7 @@ Blend blend_neighbours(const MotionTable& table, const Query& query, const Schem
     return codes;
   };
   const std::vector<WeightedCode> home_codes = codes_of(at_home), target_codes = codes_of(at_target);
-  blend_codes(home_codes, target_codes, query, blend);
+  blend_codes(home_codes, target_codes, query, scheme.postures, blend);
   return blend;
 }
 
@@ -144,11 +162,18 @@ void vary(std::span<const std::shared_ptr<const MotionCode>> codes, std::span<co
     clamp_exponents(*code);
     code->duration_s = std::clamp(code->duration_s * std::exp(longer), shortest, longest);
   }
+  MotionCode changed;
+  changed.coefficients = change;
+  for (PosturePart& part : blend.parts) part.curves += posture_curves(changed);
 }
 
 void reverse(Blend& blend) {
   std::swap(blend.from, blend.to);
   for (MotionCode* code : {&blend.from, &blend.to, &blend.whole}) *code = reversed(*code);
+  for (PosturePart& part : blend.parts) {
+    part.curves = part.curves.rowwise().reverse().eval();
+    std::swap(part.at_home, part.at_target);
+  }
 }
 
 EndpointWay way_of(const MotionCode& code, PathForm form) {

@@ -31,6 +31,7 @@ struct Selections {
       key.bandwidth = Scheme{}.bandwidth;
       key.ridge = Scheme{}.ridge;
       key.paths = Scheme{}.paths;
+      key.postures = Scheme{}.postures;
       const auto found = std::find(keys.begin(), keys.end(), key);
       of.push_back(static_cast<std::size_t>(found - keys.begin()));
       if (found == keys.end()) {
@@ -72,14 +73,14 @@ class Prediction {
       : recorded_(recorded), query_(recorded.query(at)), replay_(replay), truth_(truth) {}
 
   /// Error of a blend of these; blends that have been are not made again.
-  [[nodiscard]] double error_of(const BothShares& shares, PathForm form) {
+  [[nodiscard]] double error_of(const BothShares& shares, PathForm form, Average postures) {
     for (std::size_t i = 0; i < known_.size(); ++i) {
-      if (forms_[i] == form && is_same(known_[i], shares)) return errors_[i];
+      if (manners_[i] == std::pair(form, postures) && is_same(known_[i], shares)) return errors_[i];
     }
     const std::vector<WeightedCode> at_home = codes_of(shares[0]), at_target = codes_of(shares[1]);
-    blend_codes(at_home, at_target, query_, blend_);
+    blend_codes(at_home, at_target, query_, postures, blend_);
     known_.push_back(shares);
-    forms_.push_back(form);
+    manners_.emplace_back(form, postures);
     errors_.push_back(replay_.perform(blend_, form, guess_) ? mean_distance(truth_, guess_) : kFailed);
     return errors_.back();
   }
@@ -96,7 +97,7 @@ class Prediction {
   const Replay& replay_;
   const ReplayPostures& truth_;
   std::vector<BothShares> known_;
-  std::vector<PathForm> forms_;
+  std::vector<std::pair<PathForm, Average>> manners_;
   std::vector<double> errors_;
   Blend blend_;
   ReplayPostures guess_;
@@ -118,7 +119,7 @@ std::vector<double> errors_of(const Recorded& recorded, std::uint32_t at, std::s
   for (std::size_t s = 0; s < schemes.size(); ++s) {
     BothEnds& found = nearest[selections.of[s]];
     if (found[0].empty()) found = nearest_of(search, selections.schemes[selections.of[s]], schemes[s].effective_sets());
-    errors.push_back(prediction.error_of(shares_of(search, schemes[s], found), schemes[s].paths));
+    errors.push_back(prediction.error_of(shares_of(search, schemes[s], found), schemes[s].paths, schemes[s].postures));
   }
   return errors;
 }

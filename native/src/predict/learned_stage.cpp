@@ -163,7 +163,7 @@ LearnedStage retargeted_stage(const Corpus& corpus, const MotionTable& table, co
   const std::shared_ptr<const MotionCode> code = corpus.code(id);
   const WeightedCode alone{code.get(), 1.0};
   LearnedStage out;
-  blend_codes({&alone, 1}, {}, query, out.blend);
+  blend_codes({&alone, 1}, {}, query, Average::coordinates, out.blend);
   out.blend.neighbours = {named(table, query, {static_cast<std::uint32_t>(at - rows.begin()), 1.0})};
   return out;
 }

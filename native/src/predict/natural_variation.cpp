@@ -38,7 +38,7 @@ double error_as_prediction(const Recorded& recorded, std::uint32_t model, std::u
   ReplayPostures truth, guess;
   Blend blend;
   const WeightedCode only{&recorded.codes[model].code, 1.0};
-  blend_codes({&only, 1}, {}, recorded.query(wanted), blend);
+  blend_codes({&only, 1}, {}, recorded.query(wanted), Average::coordinates, blend);
   if (!replay || !replay->perform(recorded.codes[wanted].code, PathForm::deviation, truth) ||
       !replay->perform(blend, PathForm::deviation, guess)) {
     return kMissing;

@@ -47,6 +47,7 @@ Performance::Performance(const Plan& plan, const std::vector<Blend>& blends, con
   task_.object = held_by(task.object, task.hands);
   for (std::size_t i = 0; i < plan.stages.size(); ++i) acts_.push_back(act_of(plan.stages[i], blends[i], ways[i]));
   for (std::size_t i = 0; i < acts_.size(); ++i) join(i);
+  join_poses();
   find_openings();
 }
 
@@ -76,7 +77,8 @@ Performance::Act Performance::act_of(const Stage& stage, const Blend& blend, con
           .half_last = Vec3(0.0),
           .opening_m = 0.0,
           .curves_from = body_curves(blend.from),
-          .curves_to = body_curves(blend.to)};
+          .curves_to = body_curves(blend.to),
+          .poses = PoseMean(blend)};
   if (is_loaded(stage.phase)) {
     act.turning = turning_of(act);
     return act;
@@ -105,6 +107,31 @@ void Performance::join(std::size_t i) {
   if (act.stage->phase == Phase::return_) {
     const Eigen::VectorXd gap = at_ease() - act.curves_to.col(kBasisCount - 1);
     act.curves_to.colwise() += gap;
+  }
+}
+
+TrunkPose Performance::mean_pose(const Act& act, double moment) const {
+  return act.poses.at(posture_time(*act.stage, moment), anchors(moment, grips(moment)), two_handed_linkage(), linkage_,
+                      body_);
+}
+
+/// The same for means of poses: where two stages meet both have the pose that the joined coordinates give, which is
+/// also what a stage without poses has there; so the mean of poses lacks nothing where it begins and ends by itself.
+void Performance::join_poses() {
+  for (std::size_t i = 0; i < acts_.size(); ++i) {
+    Act& act = acts_[i];
+    if (!act.poses.exists()) continue;
+    const auto lack_at = [&](double moment, bool is_free, const Eigen::VectorXd& joined) {
+      const TrunkPose own = mean_pose(act, moment);
+      if (is_free) return lack_of(own, own);
+      const Decoded wanted = linkage_.decode(joined.head(posture_rows()), anchors(moment, grips(moment)));
+      return lack_of(own, trunk_pose_of(two_handed_linkage(), body_, wanted));
+    };
+    const bool first_free = i == 0 && act.stage->phase != Phase::reach;
+    const bool last_free = i + 1 == acts_.size() && act.stage->phase != Phase::return_;
+    const TrunkPose first = lack_at(act.stage->body_first, first_free, act.curves_from.col(0)),
+                    last = lack_at(act.stage->body_last, last_free, act.curves_to.col(kBasisCount - 1));
+    act.poses.meet(first, last);
   }
 }
 
@@ -270,6 +297,11 @@ Anchors Performance::anchors(double moment, const Grips& grips) const {
 }
 
 Decoded Performance::decoded(double moment, const Anchors& anchors) const {
+  const Act& act = body_act(moment);
+  if (act.poses.exists()) {
+    const double t = posture_time(*act.stage, moment);
+    return decoded_of(two_handed_linkage(), body_, act.poses.at(t, anchors, two_handed_linkage(), linkage_, body_));
+  }
   return linkage_.decode(coordinates(moment).head(posture_rows()), anchors);
 }
 

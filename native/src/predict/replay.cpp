@@ -64,6 +64,7 @@ bool Replay::perform(const MotionCode& code, PathForm form, ReplayPostures& post
 }
 
 bool Replay::perform(const Blend& blend, PathForm form, ReplayPostures& postures) const {
+  if (const PoseMean poses(blend); poses.exists()) return perform(blend.whole, form, poses, postures);
   Coordinates coordinates = curves_of(blend.from).transpose().lazyProduct(basis().from);
   coordinates += curves_of(blend.to).transpose().lazyProduct(basis().to);
   return perform(blend.whole, form, coordinates, postures);
@@ -74,7 +75,8 @@ bool Replay::perform(const MotionCode& code, PathForm form, std::span<const doub
   const EndpointWay way = way_of(code, form);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const Eigen::VectorXd coordinates = curves_of(code).transpose() * bspline_row(times[i]).transpose();
-    if (!hold_at(code, way, coordinates, times[i], postures[i])) return false;
+    const Anchors anchors = anchors_at(code, way, times[i]);
+    if (!hold_at(anchors, linkage_.decode(coordinates, anchors), postures[i])) return false;
   }
   return true;
 }
@@ -83,13 +85,25 @@ bool Replay::perform(const MotionCode& code, PathForm form, const Coordinates& c
                      ReplayPostures& postures) const {
   const EndpointWay way = way_of(code, form);
   for (int i = 0; i < kReplayTimes; ++i) {
-    if (!hold_at(code, way, coordinates.col(i), time_of(i), postures[static_cast<std::size_t>(i)])) return false;
+    const Anchors anchors = anchors_at(code, way, time_of(i));
+    if (!hold_at(anchors, linkage_.decode(coordinates.col(i), anchors), postures[static_cast<std::size_t>(i)]))
+      return false;
   }
   return true;
 }
 
-bool Replay::hold_at(const MotionCode& code, const EndpointWay& way, const Eigen::VectorXd& coordinates, double t,
-                     Posture& posture) const {
+bool Replay::perform(const MotionCode& code, PathForm form, const PoseMean& poses, ReplayPostures& postures) const {
+  const Linkage& linkage = two_handed_linkage();
+  const EndpointWay way = way_of(code, form);
+  for (int i = 0; i < kReplayTimes; ++i) {
+    const Anchors anchors = anchors_at(code, way, time_of(i));
+    const TrunkPose pose = poses.at(time_of(i), anchors, linkage, linkage_, body_);
+    if (!hold_at(anchors, decoded_of(linkage, body_, pose), postures[static_cast<std::size_t>(i)])) return false;
+  }
+  return true;
+}
+
+Anchors Replay::anchors_at(const MotionCode& code, const EndpointWay& way, double t) const {
   Anchors anchors = anchors_;
   const Vec3 hold = point_at(way, home_, target_, t);
   anchors.grip = {hold - half_grip_, hold + half_grip_};
@@ -97,8 +111,12 @@ bool Replay::hold_at(const MotionCode& code, const EndpointWay& way, const Eigen
     const Eigen::Vector3d hang = hang_curves(code) * bspline_row(t).transpose();
     anchors.hang = hang_on(body_, anchors, {hang[0], hang[1], hang[2]});
   }
+  return anchors;
+}
+
+bool Replay::hold_at(const Anchors& anchors, const Decoded& decoded, Posture& posture) const {
   HoldReport report;
-  posture = holder_.hold(linkage_.decode(coordinates, anchors), anchors, {hold, 0.0}, report);
+  posture = holder_.hold(decoded, anchors, {0.5 * (anchors.grip[0] + anchors.grip[1]), 0.0}, report);
   return report.shortfall_m == 0.0;
 }
 

@@ -67,6 +67,7 @@ std::string describe(const Scheme& scheme) {
   if (scheme.smoother == Smoother::linear) out << " ridge " << scheme.ridge;
   if (scheme.effective_sets() == Sets::one) out << ", one set";
   if (scheme.paths == PathForm::bezier) out << ", Bezier paths";
+  if (scheme.postures == Average::poses) out << ", poses";
   if (!scheme.mirrored) out << ", no mirror images";
   return out.str();
 }

@@ -20,6 +20,14 @@ struct TrunkPose {
   double bend_rad = 0.0;  ///< of the back (spine.hpp)
 };
 
+/// Poses as vectors, for weighted sums: zero, and a pose added to a sum. A turn counts as that of its two quaternions
+/// which is nearer to what the sum has already; decoded_of makes sums whole again.
+[[nodiscard]] TrunkPose no_pose();
+void add(const TrunkPose& pose, double weight, TrunkPose& sum);
+/// What `pose` lacks of `wanted`, and a share of such a lack made good.
+[[nodiscard]] TrunkPose lack_of(const TrunkPose& pose, const TrunkPose& wanted);
+void make_good(const TrunkPose& lack, double share, TrunkPose& pose);
+
 [[nodiscard]] TrunkPose trunk_pose_of(const Linkage& linkage, const Body& body, const Decoded& decoded);
 
 /// The inverse. Directions and turns are normalised first.

@@ -7,15 +7,23 @@
 #include <vector>
 
 #include "reachcast/curves/endpoint_way.hpp"
+#include "reachcast/motion/encode.hpp"
 #include "reachcast/motion/motion_code.hpp"
 #include "reachcast/predict/neighbours.hpp"
 
 namespace reachcast {
 
+/// The posture coordinates of one neighbour over time, and its weights in the means for home and target.
+struct PosturePart {
+  PostureCurves curves;
+  double at_home = 0.0, at_target = 0.0;
+};
+
 /// What the neighbours do where the motion begins and where it ends. The posture passes from the one to the other.
 struct Blend {
   MotionCode from, to;                ///< means over the neighbours of the home and of the target
   MotionCode whole;                   ///< half of each: path of the hold point and duration
+  std::vector<PosturePart> parts;     ///< where poses are averaged and there are several neighbours; else empty
   std::vector<Neighbour> neighbours;  ///< both sets; a motion of both has the mean of its two weights; heaviest first
 };
 
@@ -34,10 +42,10 @@ struct WeightedCode {
   double weight = 0.0;
 };
 
-/// from, to and whole of a blend, the same for both ends where `at_target` is empty. Memory of `blend` is used again;
+/// from, to, whole and parts of a blend, the same for both ends where `at_target` is empty. Memory of `blend` is used again;
 /// its neighbours are not touched.
 void blend_codes(std::span<const WeightedCode> at_home, std::span<const WeightedCode> at_target, const Query& query,
-                 Blend& blend);
+                 Average postures, Blend& blend);
 
 /// How motions vary about their mean, as one draw of a normal distribution with their covariance (Faraway, Reed, Wang
 /// 2007, section 4, of all coefficients at once): normal numbers times each code's difference from the mean, so that no
@@ -46,7 +54,7 @@ void blend_codes(std::span<const WeightedCode> at_home, std::span<const Weighted
 void vary(std::span<const std::shared_ptr<const MotionCode>> codes, std::span<const double> normal, const Query& query,
           Blend& blend);
 
-/// from, to and whole played backwards; the neighbours stay.
+/// All but the neighbours played backwards.
 void reverse(Blend& blend);
 
 /// The path of the hold point in a code, in this form.

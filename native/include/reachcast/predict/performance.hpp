@@ -15,6 +15,7 @@
 #include "reachcast/predict/obstacles.hpp"
 #include "reachcast/predict/path_around.hpp"
 #include "reachcast/predict/plan.hpp"
+#include "reachcast/predict/pose_mean.hpp"
 #include "reachcast/predict/stage_way.hpp"
 #include "reachcast/predict/stance_track.hpp"
 
@@ -94,12 +95,19 @@ class Performance {
     bool is_bent = false;        ///< in either manner
     Vec3 half_first, half_last;  ///< of an empty stage: what its ends lack of half the recorded way between the hands
     double opening_m = 0.0;      ///< how far empty hands stay clear of the object's sides
+<<<<<<< HEAD
     PostureCurves curves_from, curves_to;  ///< body_curves of the blend, shifted so that stages meet
+=======
+    PostureCurves curves_from, curves_to;  ///< of the blend, shifted so that stages meet
+    PoseMean poses;                        ///< instead of them where poses are averaged
+>>>>>>> main
   };
 
   [[nodiscard]] Act act_of(const Stage& stage, const Blend& blend, const StageWay& way) const;
   [[nodiscard]] Turning turning_of(const Act& act) const;
   void join(std::size_t act);
+  void join_poses();
+  [[nodiscard]] TrunkPose mean_pose(const Act& act, double moment) const;
   void find_openings();
   [[nodiscard]] bool is_free(const Act& act, const Obstacles& obstacles, double clearance_m) const;
   [[nodiscard]] bool is_free_at(const Act& act, double t, const Obstacles& obstacles, double clearance_m) const;

@@ -11,6 +11,7 @@
 #include "reachcast/posture/hold.hpp"
 #include "reachcast/posture/linkage.hpp"
 #include "reachcast/predict/blend.hpp"
+#include "reachcast/predict/pose_mean.hpp"
 
 namespace reachcast {
 
@@ -39,9 +40,11 @@ class Replay {
   /// Along the way of `code`, and with its free arm if there is one.
   [[nodiscard]] bool perform(const MotionCode& code, PathForm form, const Coordinates& coordinates,
                              ReplayPostures& postures) const;
-  /// One posture at scaled time t; false where the body cannot hold the box.
-  [[nodiscard]] bool hold_at(const MotionCode& code, const EndpointWay& way, const Eigen::VectorXd& coordinates,
-                             double t, Posture& posture) const;
+  [[nodiscard]] bool perform(const MotionCode& code, PathForm form, const PoseMean& poses,
+                             ReplayPostures& postures) const;
+  [[nodiscard]] Anchors anchors_at(const MotionCode& code, const EndpointWay& way, double t) const;
+  /// One posture; false where the body cannot hold the box.
+  [[nodiscard]] bool hold_at(const Anchors& anchors, const Decoded& decoded, Posture& posture) const;
 
   Vec3 home_, target_, half_grip_;
   Body body_;

@@ -38,6 +38,12 @@ enum class PathForm {
   bezier,     ///< inner control points of a cubic, and exponents of its speed (2007 paper)
 };
 
+/// What of the neighbours' postures is averaged.
+enum class Average {
+  coordinates,  ///< stretch-pivot coordinates, then decoded (2004 paper)
+  poses,        ///< decoded one by one on this body, then where the trunk is and how it is turned (pose_mean.hpp)
+};
+
 /// A motion whose age, sex or mass is unknown lies in the middle: its rank is half the number of the known ones, its
 /// difference one scale. A subject's unknown age, sex or mass does not count. A duration must be given.
 struct Scheme {
@@ -48,6 +54,7 @@ struct Scheme {
   bool mirrored = true;                        ///< mirror images may take part
   Sets sets = Sets::two;
   PathForm paths = PathForm::deviation;
+  Average postures = Average::coordinates;
   Smoother smoother = Smoother::triangular;
   double bandwidth = 0.5;      ///< of kernel and linear, in scales; > 0. Far from all motions the nearest one is left
   double ridge = 0.1;          ///< of linear, pull on the slopes, in weights of all motions; > 0. Large: `kernel`
