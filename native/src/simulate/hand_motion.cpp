@@ -92,11 +92,11 @@ double motion_seconds(const Person& person, Phase phase, Hands hands, const Vec3
                       double load_kg) {
   const double inches = glm::distance(start, end) / kInch_m;
   const auto by_inches = [](const Row& row) { return row.inches; };
-  double hands = looked_up(kRows, inches, by_inches, [](const Row& row) { return row.reach; });
+  double by_hand = looked_up(kRows, inches, by_inches, [](const Row& row) { return row.reach; });
   if (is_loaded(phase)) {
     const double pounds = (hands == Hands::both ? 0.5 : 1.0) * load_kg / kPound_kg;
     const auto by_pounds = [](const Weight& row) { return row.pounds; };
-    hands = looked_up(kRows, inches, by_inches, [](const Row& row) { return row.move; }) *
+    by_hand = looked_up(kRows, inches, by_inches, [](const Row& row) { return row.move; }) *
                 looked_up(kWeights, pounds, by_pounds, [](const Weight& row) { return row.factor; }) +
             looked_up(kWeights, pounds, by_pounds, [](const Weight& row) { return row.constant; });
   }
@@ -106,7 +106,7 @@ double motion_seconds(const Person& person, Phase phase, Hands hands, const Vec3
   const double trunk = change > 0.0 ? kBend * change : -kArise * change;
   const double turn = std::abs(facing_yaw(Vec3(0.0), end, hands) - facing_yaw(Vec3(0.0), start, hands));
   const double turning = kTurnBody * share_between(kNoTurn_rad, kFullTurn_rad, turn);
-  return kTmu_s * person.tempo * std::max({hands, trunk, turning});
+  return kTmu_s * person.tempo * std::max({by_hand, trunk, turning});
 }
 
 }  // namespace reachcast::simulate

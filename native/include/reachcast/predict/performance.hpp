@@ -95,12 +95,8 @@ class Performance {
     bool is_bent = false;        ///< in either manner
     Vec3 half_first, half_last;  ///< of an empty stage: what its ends lack of half the recorded way between the hands
     double opening_m = 0.0;      ///< how far empty hands stay clear of the object's sides
-<<<<<<< HEAD
     PostureCurves curves_from, curves_to;  ///< body_curves of the blend, shifted so that stages meet
-=======
-    PostureCurves curves_from, curves_to;  ///< of the blend, shifted so that stages meet
     PoseMean poses;                        ///< instead of them where poses are averaged
->>>>>>> main
   };
 
   [[nodiscard]] Act act_of(const Stage& stage, const Blend& blend, const StageWay& way) const;
