@@ -22,8 +22,8 @@ struct Range {
 // How far people go: American Academy of Orthopaedic Surgeons (1965) for hip 120, knee 135, elbow 150, lumbar 75 (here
 // all of pelvis to chest), neck 45 each way; with the heel down and the knee bent under the body's weight a shin leans
 // forward to about 40. Elbow and wrist were checked in later tables that quote the book, the rest is cited from memory;
-// reference values of Soucie et al. (2011) are of the same size. Neutral angles are this project's: chosen so that
-// lifts come out as recorded ones do. The neutral elbow is bent, as people carry.
+// reference values of Soucie et al. (2011) are of the same size. Neutral angles are this project's: chosen so that lifts come out as
+// recorded ones do. The neutral elbow is bent, as people carry.
 constexpr Range kAnkle{0, -20, 40}, kKnee{8, 2, 135}, kHip{4, -15, 132};
 constexpr Range kBackForward{2, -20, 65}, kBackSideways{0, -30, 30}, kBackTwist{0, -40, 40};
 constexpr Range kShoulder{12, -10, 170}, kAbduction{10, -10, 80}, kElbow{34, 7, 140}, kWrist{0, -70, 70};
@@ -58,8 +58,6 @@ class Writer {
  public:
   explicit Writer(Residuals& out) : out_(out) {}
   void add(double value) { out_[next_++] = value; }
-  /// So many that cost nothing.
-  void skip(Eigen::Index count) { next_ += count; }
   /// Discomfort of an angle within its range, and a steep part beyond it.
   void joint(double rad, const Range& range, double flexibility, double weight) {
     const double half = 0.5 * (range.high - range.low) * kDegree * flexibility;
@@ -150,10 +148,6 @@ Residuals Effort::residuals(const Unknowns& x, const Holding& holding, const Hab
     write.joint(angles.ankle[side], kAnkle, f, 0.6 * d * w.knee_bend);
     write.joint(angles.knee[side], kKnee, f, 0.7 * d * w.knee_bend);
     write.joint(angles.hip[side], kHip, f, 0.5 * d * w.trunk_bend);
-    if (!works(holding.anchors.hands, side)) {  // an arm that hangs asks for nothing
-      write.skip(4);
-      continue;
-    }
     write.joint(angles.shoulder[side], kShoulder, f, 0.7 * d);
     write.joint(angles.abduction[side], kAbduction, f, 0.5 * d);
     write.joint(angles.elbow[side], kElbow, f, 0.9 * d);

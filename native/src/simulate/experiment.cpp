@@ -18,12 +18,10 @@ constexpr std::array<double, kDepths> kNear_and_far{0.25, 0.33};
 constexpr double kFarthestAcross = 0.45;  // of an arm's reach from a shoulder that need not lean: see depth_of
 constexpr Vec3 kHome(0.0, 0.23, 0.57), kFloor(0.0, 0.235, 0.135);
 constexpr double kPlacing_m = 0.015;  // how much people's placing varies: nobody was asked to be precise
-constexpr double kPaperLoad_kg = 4.5, kFloorLoad_kg = 8.0, kOneHandLoad_kg = 1.0;
-constexpr Vec3 kOneHandHome(0.11, 0.23, 0.57);
-constexpr double kOneHandAside = 0.07, kOneHandDepth = 0.31;  // of the middle of the arc that its towers stand on
+constexpr double kPaperLoad_kg = 4.5, kFloorLoad_kg = 8.0;
 
-BoxSpot spot_at(const Vec3& hold, Hands hands) {
-  return {hold, facing_yaw(Vec3(0.0), hold, hands)};
+BoxSpot spot_at(const Vec3& hold) {
+  return {hold, facing_yaw(Vec3(0.0), hold)};
 }
 
 /// High and low shelves are less deep.
@@ -35,12 +33,6 @@ double depth_of(std::size_t level, std::size_t depth) {
 Vec3 target_of(std::size_t tower, std::size_t level, std::size_t depth) {
   const double ahead = depth_of(level, depth);
   return {ahead * std::sin(kTower_rad[tower]), ahead * std::cos(kTower_rad[tower]), kLevel[level]};
-}
-
-/// High and low ones are less far here too.
-Vec3 one_handed_target(std::size_t tower, std::size_t level) {
-  const double ahead = kOneHandDepth - 0.06 * (std::abs(kLevel[level] - 0.6) / kFarthestAcross);
-  return {kOneHandAside + ahead * std::sin(kTower_rad[tower]), ahead * std::cos(kTower_rad[tower]), kLevel[level]};
 }
 
 Vec3 placed(const Vec3& in_statures, double stature_m, std::uint64_t seed) {
@@ -60,12 +52,10 @@ class Series {
       : stature_m_(person.subject.stature_m), number_(number), seed_(seed), out_(out) {}
 
   void add(const char* series, const Vec3& home, const Vec3& target, std::size_t target_number, std::size_t replicate,
-           double load_kg, std::initializer_list<Phase> phases, Hands hands = Hands::both) {
-    const BoxSpot from = spot_at(placed(home, stature_m_, next()), hands),
-                  to = spot_at(placed(target, stature_m_, next()), hands);
+           double load_kg, std::initializer_list<Phase> phases) {
+    const BoxSpot from = spot_at(placed(home, stature_m_, next())), to = spot_at(placed(target, stature_m_, next()));
     for (const Phase phase : phases) {
-      out_.push_back(
-          {phase, hands, from, to, load_kg, numbered(series, number_, target_number, replicate, phase), next()});
+      out_.push_back({phase, from, to, load_kg, numbered(series, number_, target_number, replicate, phase), next()});
     }
   }
 
@@ -98,10 +88,6 @@ std::vector<Errand> errands_of(const Person& person, std::size_t number, std::ui
   // People also come for a box on the floor and leave one there.
   for (std::size_t replicate = 0; replicate < kReplicates; ++replicate) {
     series.add("floor", kHome, kFloor, count, replicate, kFloorLoad_kg, {return_, reach});
-  }
-  for (std::size_t target = 0; target < kOneHandedTargets; ++target) {
-    series.add("right", kOneHandHome, one_handed_target(target / kLevels, target % kLevels), target, 0, kOneHandLoad_kg,
-               {transfer, return_, reach, retrieve}, Hands::right);
   }
   return out;
 }

@@ -58,7 +58,7 @@ double share_between(double none, double full, double value) {
 
 }  // namespace
 
-HandPath draw_hand_path(const Person& person, const Vec3& start, const Vec3& end, Hands hands, std::uint64_t seed) {
+HandPath draw_hand_path(const Person& person, const Vec3& start, const Vec3& end, std::uint64_t seed) {
   HandPath path = HandPathModel::published().predict(start, end);
   const Eigen::VectorXd normal = normal_numbers(seed, 8);
   const double distance = glm::distance(start, end);
@@ -67,7 +67,6 @@ HandPath draw_hand_path(const Person& person, const Vec3& start, const Vec3& end
       path.control[static_cast<std::size_t>(i + 1)][k] +=
           distance * (person.habit[3 * i + k] + kWithinPeople * normal[3 * i + k]);
     }
-    if (hands == Hands::right) continue;
     // Both hands carry: the published step to the right is that of a right hand alone.
     path.control[static_cast<std::size_t>(i + 1)].x -=
         distance * HandPathModel::published().offsets()[static_cast<std::size_t>(i)].x;
@@ -88,15 +87,14 @@ double largest_deviation(const HandPath& path) {
   return most / distance;
 }
 
-double motion_seconds(const Person& person, Phase phase, Hands hands, const Vec3& start, const Vec3& end,
-                      double load_kg) {
+double motion_seconds(const Person& person, Phase phase, const Vec3& start, const Vec3& end, double load_kg) {
   const double inches = glm::distance(start, end) / kInch_m;
   const auto by_inches = [](const Row& row) { return row.inches; };
-  double by_hand = looked_up(kRows, inches, by_inches, [](const Row& row) { return row.reach; });
+  double hands = looked_up(kRows, inches, by_inches, [](const Row& row) { return row.reach; });
   if (is_loaded(phase)) {
-    const double pounds = (hands == Hands::both ? 0.5 : 1.0) * load_kg / kPound_kg;
+    const double pounds = 0.5 * load_kg / kPound_kg;
     const auto by_pounds = [](const Weight& row) { return row.pounds; };
-    by_hand = looked_up(kRows, inches, by_inches, [](const Row& row) { return row.move; }) *
+    hands = looked_up(kRows, inches, by_inches, [](const Row& row) { return row.move; }) *
                 looked_up(kWeights, pounds, by_pounds, [](const Weight& row) { return row.factor; }) +
             looked_up(kWeights, pounds, by_pounds, [](const Weight& row) { return row.constant; });
   }
@@ -104,9 +102,9 @@ double motion_seconds(const Person& person, Phase phase, Hands hands, const Vec3
   const auto depth = [&](const Vec3& hold) { return share_between(kNoBend * stature, kFullBend * stature, hold.z); };
   const double change = depth(end) - depth(start);
   const double trunk = change > 0.0 ? kBend * change : -kArise * change;
-  const double turn = std::abs(facing_yaw(Vec3(0.0), end, hands) - facing_yaw(Vec3(0.0), start, hands));
+  const double turn = std::abs(facing_yaw(Vec3(0.0), end) - facing_yaw(Vec3(0.0), start));
   const double turning = kTurnBody * share_between(kNoTurn_rad, kFullTurn_rad, turn);
-  return kTmu_s * person.tempo * std::max({by_hand, trunk, turning});
+  return kTmu_s * person.tempo * std::max({hands, trunk, turning});
 }
 
 }  // namespace reachcast::simulate

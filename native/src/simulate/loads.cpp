@@ -37,7 +37,6 @@ JointMoments joint_moments(const Pose& pose, double body_mass_kg, const Holding&
   const Vec3 centre = centre_of_mass(p, body_mass_kg, holding.load);
   const double half_weight =
       0.5 * kGravity * (body_mass_kg + holding.load.mass_kg - 2.0 * kShankAndFoot * body_mass_kg);
-  const Hands hands = holding.anchors.hands;
   for (const std::size_t side : {0u, 1u}) {
     const Vec3 knee = p[index(side == 0 ? left_knee : right_knee)],
                ankle = p[index(side == 0 ? left_ankle : right_ankle)];
@@ -45,8 +44,7 @@ JointMoments joint_moments(const Pose& pose, double body_mass_kg, const Holding&
     out.knee[side] = half_weight * (glm::dot(knee - ankle, fore) - glm::dot(centre - ankle, fore));
     const Vec3 shoulder = p[index(side == 0 ? left_shoulder : right_shoulder)];
     const Vec3 grip = p[index(side == 0 ? left_grip : right_grip)];
-    const double share = hands == Hands::both ? 0.5 : works(hands, side) ? 1.0 : 0.0;
-    const Vec3 pull = share * kGravity * holding.load.mass_kg * (grip - shoulder);
+    const Vec3 pull = 0.5 * kGravity * holding.load.mass_kg * (grip - shoulder);
     out.shoulder[side] = glm::length(arm_moment(p, side, shoulder, body_mass_kg) + Vec3(pull.x, pull.y, 0.0));
   }
   return out;

@@ -16,8 +16,6 @@ Vec3 middle(const Vec3& a, const Vec3& b) {
   return 0.5 * (a + b);
 }
 
-constexpr double kFreeElbow_rad = 0.2;  // how far the elbow of a free arm points outward
-
 /// Reach of two links with a limited hinge between them.
 Interval reach_of(double upper, double lower, const FlexionLimit& limit) {
   const auto across = [&](double flexion) {
@@ -133,15 +131,13 @@ std::array<LimbPlane, kLimbCount> PoseModel::limb_planes(const Unknowns& x, cons
     const std::size_t side = i % 2;
     const double outward = side == 0 ? -1.0 : 1.0;
     const Vec3 root = decoded.trunk[index(two_handed_linkage().limbs[i].root)];
-    const bool is_free = is_arm && !works(anchors.hands, side);
-    const Vec3 grip = is_free ? root + anchors.hang : anchors.grip[side];
-    const Vec3 end = is_arm ? grip + decoded.wrist_from_grip[side] : anchors.ankle[side];
+    const Vec3 end = is_arm ? anchors.grip[side] + decoded.wrist_from_grip[side] : anchors.ankle[side];
     const Vec3 axis = glm::normalize(end - root);
     const double yaw = 0.3 * at(x, Unknown::pelvis_yaw);
     const Vec3 right = is_arm ? frames.chest[0] : level_right(yaw);
     const Vec3 inner = glm::normalize(is_arm ? glm::cross(axis, right) : glm::cross(right, axis));
     const Vec3 side_way = glm::normalize(right - glm::dot(right, axis) * axis);
-    const double apart = is_free ? kFreeElbow_rad : at(x, is_arm ? Unknown::elbows_apart : Unknown::knees_apart);
+    const double apart = at(x, is_arm ? Unknown::elbows_apart : Unknown::knees_apart);
     const Vec3 toward = std::cos(apart) * inner + outward * std::sin(apart) * side_way;
     planes[i] = {glm::cross(toward, axis), axis};
   }
@@ -159,16 +155,9 @@ Pose PoseModel::pose(const Unknowns& x, const Anchors& anchors, const Load& load
                     -std::cos(inward) * std::sin(pitch));
     decoded.wrist_from_grip[side] = -hand_m_ * turned(hand, yaw);
   }
+  const Vec3 wrists =
+      middle(anchors.grip[0] + decoded.wrist_from_grip[0], anchors.grip[1] + decoded.wrist_from_grip[1]);
   const Vec3 shoulder = shoulder_in_chest(x, false);
-  Vec3 wrists = middle(anchors.grip[0] + decoded.wrist_from_grip[0], anchors.grip[1] + decoded.wrist_from_grip[1]);
-  if (anchors.hands != Hands::both) {
-    // The free hand points the way its arm hangs; the chain ends as far beside the working wrist as that arm's root is
-    // beside the middle of the shoulders.
-    const std::size_t side = working_side(anchors.hands);
-    decoded.wrist_from_grip[1 - side] = -hand_m_ * glm::normalize(anchors.hang);
-    const double aside = side == 0 ? -shoulder.x : shoulder.x;
-    wrists = anchors.grip[side] + decoded.wrist_from_grip[side] - aside * level_right(at(x, Unknown::chest_yaw));
-  }
   const Spine chain = spine(x, ankles, wrists, shoulder);
 
   out.frames.pelvis = turn_between(hips_to_waist_, chain.waist - chain.hips, level_right(at(x, Unknown::pelvis_yaw)));

@@ -11,7 +11,6 @@
 #include "reachcast/predict/plan.hpp"
 #include "reachcast/predict/stand.hpp"
 #include "reachcast/simulate/body_track.hpp"
-#include "reachcast/simulate/free_arm_swing.hpp"
 #include "reachcast/simulate/hand_motion.hpp"
 #include "reachcast/simulate/solve.hpp"
 
@@ -21,20 +20,18 @@ namespace {
 constexpr double kHalfGrip_m = 0.20;  // of the add-on's default box
 constexpr double kBoxDown_m = 0.0;    // the box's centre is level with its handles
 constexpr double kMostInward_m = 0.12, kBodyRadius_m = 0.11, kHalfDepth_m = 0.14;
-constexpr double kHalfSmall_m = 0.04;  // of what one hand carries
 constexpr double kLowestHold_m = 0.12;
 constexpr int kDraws = 20;
 constexpr std::array<double, 2> kPulls{0.1, 0.2};  // to the neighbouring moments, round by round
 constexpr double kMood = 0.12;                     // how much a person's liking varies from motion to motion
 
 /// Where and how the hands go.
-class Handling {
+class Hands {
  public:
-  Handling(const Person& person, const Errand& errand, const PoseModel& model)
-      : errand_(errand), swing_(errand.seed, model.body()) {
-    const Anchors rest = anchors_of(standing_at_ease(model.body()), errand.hands);
+  Hands(const Person& person, const Errand& errand, const PoseModel& model) : errand_(errand) {
+    const Anchors rest = anchors_of(standing_at_ease(model.body()));
     rest_half_ = 0.5 * (rest.grip[1] - rest.grip[0]);
-    const Vec3 at_rest = hold_point(rest);
+    const Vec3 at_rest = 0.5 * (rest.grip[0] + rest.grip[1]);
     const bool comes = errand.phase == Phase::reach, goes = errand.phase == Phase::return_;
     start_ = comes ? at_rest : errand.phase == Phase::transfer ? errand.home.hold : errand.target.hold;
     end_ = goes ? at_rest : errand.phase == Phase::retrieve ? errand.home.hold : errand.target.hold;
@@ -49,22 +46,17 @@ class Handling {
   /// At a share of the path.
   [[nodiscard]] Holding at(double share, const PoseModel& model) const {
     const Vec3 hold = eval_bezier(path_.control, share);
-    const double yaw = facing_yaw(Vec3(0.0), hold, errand_.hands);
+    const double yaw = facing_yaw(Vec3(0.0), hold);
     double open = 0.0;  // 1 with the hands at the sides
     if (errand_.phase == Phase::reach) open = 1.0 - eased(0.0, 1.0, share);
     if (errand_.phase == Phase::return_) open = eased(0.0, 1.0, share);
     const Vec3 half = turned(glm::mix(Vec3(kHalfGrip_m, 0, 0), rest_half_, open), yaw);
     Holding out;
     out.anchors = model.anchors({hold - half, hold + half});
-    if (errand_.hands != Hands::both) {
-      out.anchors.grip = {hold, hold};
-      out.anchors.hands = errand_.hands;
-      out.anchors.hang = hang_on(model.body(), out.anchors, swing_.at(share, is_at_rest(0), is_at_rest(1)));
-    }
     const bool loaded = is_loaded(errand_.phase);
     const BoxPlace box = loaded ? BoxPlace{hold, yaw} : BoxPlace{errand_.target.hold, errand_.target.yaw_rad};
     out.load = {box.hold - Vec3(0, 0, kBoxDown_m), loaded ? errand_.load_kg : 0.0};
-    if (errand_.hands == Hands::both) out.box = box;
+    out.box = box;
     // Eyes go to where the hands will be, and from what they leave ahead again.
     const Vec3 ahead(0.0, 3.0, 0.8 * model.body().stature_m());
     const double look = eased(0.0, 0.6, share);
@@ -75,16 +67,12 @@ class Handling {
   }
 
  private:
-  /// Whether the motion begins, or ends, with the hands at the sides.
-  [[nodiscard]] bool is_at_rest(int end) const { return errand_.phase == (end == 0 ? Phase::reach : Phase::return_); }
-
   /// Paths that would lead the box through the body or the floor are drawn again; if all do, the
   /// straight line is taken.
   [[nodiscard]] HandPath clear_path(const Person& person) const {
     HandPath path;
     for (int draw = 0; draw < kDraws; ++draw) {
-      path = draw_hand_path(person, start_, end_, errand_.hands,
-                            derived_seed(errand_.seed, static_cast<std::uint64_t>(draw)));
+      path = draw_hand_path(person, start_, end_, derived_seed(errand_.seed, static_cast<std::uint64_t>(draw)));
       if (is_clear(path)) return path;
     }
     for (std::size_t i : {1u, 2u}) path.control[i] = glm::mix(start_, end_, static_cast<double>(i) / 3.0);
@@ -93,8 +81,7 @@ class Handling {
 
   [[nodiscard]] bool is_clear(const HandPath& path) const {
     const bool loaded = is_loaded(errand_.phase);
-    const double half = errand_.hands == Hands::both ? kHalfDepth_m : kHalfSmall_m;
-    const double least = loaded ? half + kBodyRadius_m : 0.0;
+    const double least = loaded ? kHalfDepth_m + kBodyRadius_m : 0.0;
     const double allowed = std::min({least, level(start_) - 0.03, level(end_) - 0.03});
     const double low = std::min({kLowestHold_m, start_.z, end_.z});
     for (int i = 1; i < 20; ++i) {
@@ -107,7 +94,6 @@ class Handling {
   static double level(const Vec3& v) { return std::hypot(v.x, v.y); }
 
   const Errand& errand_;
-  FreeArmSwing swing_;
   Vec3 start_{0.0}, end_{0.0}, rest_half_{0.0};
   HandPath path_;
 };
@@ -127,7 +113,7 @@ double share_at(std::size_t moment) {
 
 /// Unknowns of least effort at shares of the hands' path, found one from the other from the end that bends the body
 /// more.
-Eigen::MatrixXd sought(const Effort& effort, const Handling& hands) {
+Eigen::MatrixXd sought(const Effort& effort, const Hands& hands) {
   Eigen::MatrixXd found(kMoments, kUnknowns);
   const bool backwards = hands.end().z < hands.start().z;
   Unknowns last;
@@ -142,7 +128,7 @@ Eigen::MatrixXd sought(const Effort& effort, const Handling& hands) {
 
 /// A least effort may jump from one moment to the next where a body cannot: every moment is sought again near its
 /// neighbours, a few times over.
-void draw_together(const Effort& effort, const Handling& hands, Eigen::MatrixXd& found) {
+void draw_together(const Effort& effort, const Hands& hands, Eigen::MatrixXd& found) {
   for (const double weight : kPulls) {
     for (Eigen::Index moment = 0; moment < found.rows(); ++moment) {
       const Eigen::Index before = std::max<Eigen::Index>(moment - 1, 0), after = std::min(moment + 1, found.rows() - 1);
@@ -154,7 +140,7 @@ void draw_together(const Effort& effort, const Handling& hands, Eigen::MatrixXd&
   }
 }
 
-BodyTrack body_track(const Effort& effort, const Handling& hands) {
+BodyTrack body_track(const Effort& effort, const Hands& hands) {
   Eigen::MatrixXd found = sought(effort, hands);
   draw_together(effort, hands, found);
   std::vector<Decoded> moments;
@@ -172,15 +158,13 @@ Simulated simulate_reach(const Person& person, const Errand& errand) {
   const Person disposed = in_mood(person, errand.seed);
   const PoseModel model(person.body, *person.subject.mass_kg);
   const Effort effort(disposed, model);
-  const Handling hands(disposed, errand, model);
+  const Hands hands(disposed, errand, model);
   Simulated out;
   const BodyTrack track = body_track(effort, hands);
   out.reach.subject = person.subject;
   out.reach.phase = errand.phase;
-  out.reach.hands = errand.hands;
   out.reach.origin = errand.origin;
-  out.reach.duration_s =
-      motion_seconds(disposed, errand.phase, errand.hands, hands.start(), hands.end(), errand.load_kg);
+  out.reach.duration_s = motion_seconds(disposed, errand.phase, hands.start(), hands.end(), errand.load_kg);
   for (std::size_t frame = 0; frame < kFrames; ++frame) {
     const double share = hands.progress(static_cast<double>(frame) / static_cast<double>(kFrames - 1));
     const Holding holding = hands.at(share, model);

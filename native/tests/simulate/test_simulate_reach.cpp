@@ -67,8 +67,8 @@ TEST(HandMotion, VariesAsThePaperSays) {
   std::vector<double> within, from_mean;
   for (std::uint64_t draw = 0; draw < 2000; ++draw) {
     const Person person = make_people(draw)[draw % kPeople];
-    const HandPath one = draw_hand_path(person, start, end, Hands::both, 2 * draw),
-                   two = draw_hand_path(person, start, end, Hands::both, 2 * draw + 1);
+    const HandPath one = draw_hand_path(person, start, end, 2 * draw),
+                   two = draw_hand_path(person, start, end, 2 * draw + 1);
     within.push_back(farthest(one, two.control));
     Points mean = HandPathModel::published().predict(start, end).control;
     for (std::size_t i : {1u, 2u}) mean[i].x -= distance * HandPathModel::published().offsets()[i - 1].x;
@@ -82,12 +82,10 @@ TEST(HandMotion, TimesAreThoseOfMtm) {
   Person person = people()[0];
   person.tempo = 1.0;
   const Vec3 start(0.0, 0.4, 1.0), end(0.0, 0.4, 1.0 + 20 * 0.0254);
-  EXPECT_NEAR(motion_seconds(person, Phase::reach, Hands::both, start, end, 0.0), 18.6 * 0.036, 1e-9);
-  EXPECT_NEAR(motion_seconds(person, Phase::transfer, Hands::both, start, end, 0.0), 18.2 * 0.036, 1e-9);
-  EXPECT_NEAR(motion_seconds(person, Phase::transfer, Hands::both, start, end, 2 * 7.5 * 0.4536),
-              (1.06 * 18.2 + 2.2) * 0.036, 1e-9);
-  EXPECT_NEAR(motion_seconds(person, Phase::transfer, Hands::both, Vec3(0, 0.4, 0.2), Vec3(0, 0.4, 0.7), 0.0),
-              31.9 * 0.036, 1e-9);
+  EXPECT_NEAR(motion_seconds(person, Phase::reach, start, end, 0.0), 18.6 * 0.036, 1e-9);
+  EXPECT_NEAR(motion_seconds(person, Phase::transfer, start, end, 0.0), 18.2 * 0.036, 1e-9);
+  EXPECT_NEAR(motion_seconds(person, Phase::transfer, start, end, 2 * 7.5 * 0.4536), (1.06 * 18.2 + 2.2) * 0.036, 1e-9);
+  EXPECT_NEAR(motion_seconds(person, Phase::transfer, Vec3(0, 0.4, 0.2), Vec3(0, 0.4, 0.7), 0.0), 31.9 * 0.036, 1e-9);
 }
 
 TEST(Simulation, SameSeedGivesTheSameBytesAndAnotherSeedOthers) {

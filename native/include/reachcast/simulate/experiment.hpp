@@ -17,7 +17,6 @@ inline constexpr std::size_t kLevels = 5;  ///< from ankle to eye level
 inline constexpr std::size_t kDepths = 2;  ///< near, far
 inline constexpr std::size_t kTargets = kTowers * kLevels * kDepths;
 inline constexpr std::size_t kReplicates = 2;
-inline constexpr std::size_t kOneHandedTargets = kTowers * kLevels;  ///< of the right hand: its side of the towers
 
 /// A place where a box stands, by where its handles are held.
 struct BoxSpot {
@@ -28,7 +27,6 @@ struct BoxSpot {
 /// One motion to be made.
 struct Errand {
   Phase phase = Phase::transfer;
-  Hands hands = Hands::both;  ///< or right: what the left hand does is its mirror image
   BoxSpot home, target;
   double load_kg = 0.0;  ///< of the box
   std::string origin;
@@ -38,8 +36,7 @@ struct Errand {
 /// The four phases with each target and replicate, the box's home ahead at the height of the waist (`paper`), then
 /// transfers and retrieves between these targets and a home on the floor (`floor`), once each; targets lower than the
 /// knee are left out there. Places are given in statures, so that everybody can do everything; a far target that the
-/// arms would not reach stands nearer. Last something light in the right hand alone (`right`), once to each of a row of
-/// targets from ahead of the shoulder to its side.
+/// arms would not reach stands nearer.
 [[nodiscard]] std::vector<Errand> errands_of(const Person& person, std::size_t number, std::uint64_t seed);
 
 }  // namespace reachcast::simulate

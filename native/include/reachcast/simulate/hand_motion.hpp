@@ -20,17 +20,16 @@ inline constexpr double kWithinPeople = 0.0929;
 inline constexpr double kBetweenPeople = 0.1207;
 
 /// The hold point's path: the published mean of the 2007 paper with the person's habit and a draw of this motion, and
-/// the published speed profile with a draw; that of the right hand, or midway between both. Deterministic.
-[[nodiscard]] HandPath draw_hand_path(const Person& person, const Vec3& start, const Vec3& end, Hands hands,
-                                      std::uint64_t seed);
+/// the published speed profile with a draw. Deterministic.
+[[nodiscard]] HandPath draw_hand_path(const Person& person, const Vec3& start, const Vec3& end, std::uint64_t seed);
 
 /// How far the path leaves the straight line at the most, in distances from start to end.
 [[nodiscard]] double largest_deviation(const HandPath& path);
 
 /// Seconds from the first to the last movement of the hands. MTM-1's times for Move and Reach, case B, by distance and
-/// by the weight in each hand that works; where the trunk must bend or rise, or turn to the side, that time when it is
-/// longer; times the person's tempo. load_kg in all hands together.
-[[nodiscard]] double motion_seconds(const Person& person, Phase phase, Hands hands, const Vec3& start, const Vec3& end,
+/// by the weight in either hand; where the trunk must bend or rise, or turn to the side, that time when it is longer;
+/// times the person's tempo. load_kg in both hands together.
+[[nodiscard]] double motion_seconds(const Person& person, Phase phase, const Vec3& start, const Vec3& end,
                                     double load_kg);
 
 }  // namespace reachcast::simulate
