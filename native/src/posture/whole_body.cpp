@@ -106,6 +106,14 @@ Vec3 direction(const double* stored, const Vec3& otherwise) {
   return size > 1e-9 ? local / size : glm::normalize(otherwise);
 }
 
+/// How a part is turned against the stand: the middle of what the two sides say, as decoding has it. They differ where
+/// a recording has both clavicle roots in one point and the stand has not.
+Mat3 turn_of_both_sides(const RigidSpec& part, const Posture& stand, const Posture& posture) {
+  const Quat one = glm::quat_cast(turn_of(part, stand, posture)),
+             other = mirrored_turn(glm::quat_cast(turn_of(part, mirrored(stand), mirrored(posture))));
+  return glm::mat3_cast(middle_turn(one, other));
+}
+
 }  // namespace
 
 Mat3 triangle_frame(const Vec3& a, const Vec3& b, const Vec3& apex) {
@@ -144,7 +152,8 @@ Eigen::VectorXd encode_posture(const Linkage& linkage, const Posture& recorded, 
   double* next = encode_trunk(linkage, posture, straight, out.data());
   next = encode_trunk(linkage, mirrored(posture), mirrored(straight), next);
   for (const PointerSpec& pointer : linkage.pointers) {
-    Mat3 turn = pointer.part == PointerSpec::kObject ? object : turn_of(linkage.parts[pointer.part], stand, straight);
+    Mat3 turn = object;
+    if (pointer.part != PointerSpec::kObject) turn = turn_of_both_sides(linkage.parts[pointer.part], stand, straight);
     if (pointer.part == kChest) turn = turn * upper;
     const Vec3 local = glm::transpose(turn) * glm::normalize(posture[index(pointer.to)] - posture[index(pointer.from)]);
     for (int i = 0; i < 3; ++i) *next++ = local[i];

@@ -86,6 +86,22 @@ TEST(WholeBody, DecodeInvertsEncodeOnTheSameBody) {
   }
 }
 
+/// Recordings often have one point for both clavicle roots, which a body has apart.
+TEST(WholeBody, AMirroredRecordingIsTheMirroredPostureOnABodyWithOtherClavicleRoots) {
+  const Body body = Body::from_stature(1.75);
+  Posture posture = body.posture();
+  posture[index(left_clavicle)] = posture[index(right_clavicle)] = posture[index(suprasternale)];
+  posture[index(left_grip)] = {-0.2, 0.35, 0.9};
+  posture[index(right_grip)] = {0.3, 0.40, 1.0};
+  const BodyLinkage linkage(two_handed_linkage(), body);
+  const auto decoded = [&](const Posture& p) {
+    return linkage.decode(encode_posture(two_handed_linkage(), p), anchors_of(p)).trunk;
+  };
+  const Posture one = decoded(posture), image = mirrored(decoded(mirrored(posture)));
+  for (const Joint j : {l5s1, c7t1, left_shoulder, right_shoulder, left_clavicle, tragion, nasion})
+    EXPECT_LT(glm::distance(one[index(j)], image[index(j)]), kTolerance_m) << joint_name(j);
+}
+
 TEST(WholeBody, RandomCoordinatesKeepEverySegment) {
   Random random(11);
   std::normal_distribution<> normal;
