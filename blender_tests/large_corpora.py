@@ -30,8 +30,8 @@ def write_repeated(path: Path, count: int) -> None:
             file.executemany("INSERT INTO clips VALUES (?, ?, ?)",
                              [(key + clip, f"{origin}, copy {copy}", source) for key, origin, source in clips])
             file.executemany(f"INSERT INTO motions VALUES ({', '.join('?' * len(motions[0]))})",
-                             [(row[0] + motion, row[1], row[2] + clip, *row[3:5], row[5] * pick.uniform(1 - PACE, 1 + PACE),
-                               *(value + pick.uniform(-APART_M, APART_M) for value in row[6:12]), *row[12:])
+                             [(row[0] + motion, row[1], row[2] + clip, *row[3:6], row[6] * pick.uniform(1 - PACE, 1 + PACE),
+                               *(value + pick.uniform(-APART_M, APART_M) for value in row[7:13]), *row[13:])
                               for row in motions])
             file.executemany("INSERT INTO codes VALUES (?, ?, ?)",
                              [(key + motion, original and original + motion, data) for key, original, data in codes])
