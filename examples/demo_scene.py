@@ -77,6 +77,9 @@ def dress(rig: bpy.types.Object, skeleton: Skeleton, stature: float) -> None:
     for piece in list(helper.children):
         segment = segment_of.get(piece.parent_bone, "")
         bone = skeleton.segments.get(segment, skeleton.segments.get(segment.replace("toe", "foot")))
+        if bone is None and piece.parent_bone == "ribs":   # no segment of its own: it hangs below the chest
+            chest = rig.data.bones[skeleton.bones.names[skeleton.segments["chest"]]]
+            bone = skeleton.bones.names.index((chest.parent or chest).name)
         if bone is None:
             raise ValueError(f"Rig '{rig.name}' has no bone for the mannequin's {piece.parent_bone}")
         place = piece.matrix_world.copy()
